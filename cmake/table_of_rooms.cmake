@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+#
+# The rooms and their arrows, once. docs/architecture.md says what each room knows; the test
+# "arrows" fails when an include runs against this table.
+lightwell_room(base LIBRARIES Threads::Threads lightwell_expected ZLIB::ZLIB BAKER_ONLY parallel_threads.cpp file.cpp)
+lightwell_room(mesh DEPENDS base)
+lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp)
+lightwell_room(light DEPENDS base)
+lightwell_room(pack DEPENDS base)
+lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_json draco::draco meshoptimizer::meshoptimizer)
+lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
+lightwell_room(trace DEPENDS scene base LIBRARIES embree)
+lightwell_room(render DEPENDS trace light scene base LIBRARIES tinyexr::tinyexr)
+lightwell_room(bake DEPENDS trace light mesh texture gltf scene pack base)
+lightwell_room(client DEPENDS pack light mesh texture base)
+lightwell_room(transport DEPENDS client base LIBRARIES Boost::headers)
+lightwell_room(server DEPENDS pack base LIBRARIES Boost::headers)
+lightwell_room(cli DEPENDS base mesh texture gltf light pack scene trace bake render client transport server
+               LIBRARIES CLI11::CLI11)

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
+
+namespace lightwell {
+
+/// The whole of a regular file; a gzipped one (recognised by content) is inflated when `inflate` is set. Errors name the
+/// file. At most `limit` bytes are produced, so that a small hostile file cannot exhaust memory.
+Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate = false,
+                                       size_t limit = size_t(4) << 30);
+
+/// Writes a file as a whole or not at all: into a temporary file beside it that is renamed at the end. "-" is stdout.
+Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
+
+/// The same for content made piece by piece: `fill` gets a function that appends bytes (and says whether that worked).
+Result<void> write_file(const std::filesystem::path& path,
+                        const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill);
+
+}  // namespace lightwell

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "lightwell/base/parallel.h"
+
+namespace lightwell {
+
+int default_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+void parallel_for(size_t count, size_t grain, int threads, const std::function<void(size_t, size_t, int)>& body,
+                  const std::function<bool()>& stop) {
+  grain = std::max<size_t>(grain, 1);
+  const size_t chunks = count / grain + (count % grain != 0);
+  if (threads <= 0) threads = default_threads();
+  const int used = static_cast<int>(std::min<size_t>(chunks, static_cast<size_t>(threads)));
+  std::atomic<size_t> next = 0;
+  auto work = [&](int thread) {
+    for (size_t chunk; (chunk = next++) < chunks;) {
+      if (stop && stop()) return;
+      body(chunk * grain, std::min(count, (chunk + 1) * grain), thread);
+    }
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < used; i++) others.emplace_back(work, i);
+  work(0);
+  for (std::thread& other : others) other.join();
+}
+
+}  // namespace lightwell

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "lightwell/base/vector.h"
+
+namespace lightwell {
+
+/// The nodes of a regular grid over an axis-parallel box: node (i, j, k) stands at lo + (i, j, k) * cell. At least two nodes
+/// an axis; nodes are numbered x fastest, z slowest.
+struct GridShape {
+  Vec3f lo{};
+  Vec3f cell = Vec3f::filled(1);  ///< distance between neighbours on each axis, metres
+  Vec3i nodes{{2, 2, 2}};
+
+  size_t count() const { return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]); }
+  size_t index(Vec3i n) const {
+    return static_cast<size_t>(n[0]) + static_cast<size_t>(nodes[0]) * (static_cast<size_t>(n[1]) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(n[2]));
+  }
+  Vec3i node(size_t index) const;
+  Vec3f position(Vec3i n) const { return lo + cell * n.cast<float>(); }
+  Vec3f hi() const { return position(nodes - Vec3i::filled(1)); }
+
+  /// The grid over `box` with `longest` nodes on its longest axis and max(2, round(size / longest size * (longest - 1)) + 1)
+  /// on the others. A flat box is thickened to a cell.
+  static GridShape over(const Box3f& box, int longest);
+};
+
+/// The irradiance at a node for every direction, as nine moments for each colour (light.md section 1):
+/// E for +x, -x, +y, -y, +z, -z (W/m2), then S for xy, xz, yz.
+struct Moments {
+  std::array<Vec3f, 9> m{};  ///< each entry is an RGB triple
+
+  Moments& operator+=(const Moments& other) {
+    for (size_t i = 0; i < m.size(); i++) m[i] += other.m[i];
+    return *this;
+  }
+  friend Moments operator*(Moments a, float s) {
+    for (Vec3f& v : a.m) v *= s;
+    return a;
+  }
+
+  /// Irradiance (W/m2, RGB) on a surface of unit normal n: half of F.n + sum M_a n_a^2 + sum S_ab n_a n_b, never negative.
+  /// Exact for normals along an axis, and for radiance of degree up to two. Differs from the papers: see
+  /// docs/decisions/002-moments.md.
+  Vec3f irradiance(const Vec3f& n) const;
+};
+
+/// The irradiance vector grid of S08 and R09, in moments, with the validity of its nodes.
+struct LightGrid {
+  GridShape shape;
+  std::vector<Moments> moments;   ///< shape.count()
+  std::vector<uint8_t> valid;     ///< 1 where a node stands in free space, 0 inside a solid
+  float normal_offset = 0.5f;     ///< a lookup is moved by this many cells along the normal, light.md section 6
+
+  /// Irradiance (W/m2, RGB) at a point for a unit normal: trilinear among the eight nodes round point + normal_offset * cell *
+  /// normal, valid ones at full weight and invalid ones at 2^-13. Points outside are clamped to the grid.
+  Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const;
+};
+
+}  // namespace lightwell
