@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/scene/scene.h"
+#include "lightwell/trace/sampling.h"
+
+namespace lightwell {
+
+/// The environment as a source of light: constant, or a latitude-longitude map sampled by its radiance.
+class EnvironmentLight {
+ public:
+  EnvironmentLight() = default;
+  /// The environment must outlive this.
+  explicit EnvironmentLight(const Environment& environment);
+
+  bool black() const { return max_component(mean_) <= 0; }
+  /// The mean over all directions, W/m2/sr.
+  const Vec3f& mean() const { return mean_; }
+  /// Radiance that arrives from a unit direction (pointing towards the environment).
+  Vec3f radiance(const Vec3f& direction) const;
+  /// A direction by radiance; not when black.
+  Vec3f sample(Random& random) const;
+  /// The density of sample(), 1/sr.
+  float density(const Vec3f& direction) const;
+
+ private:
+  size_t pixel(const Vec3f& direction) const;
+
+  Vec3f scale_{};
+  Vec3f mean_{};
+  const RadianceImage* map_ = nullptr;
+  Distribution pixels_;
+};
+
+}  // namespace lightwell

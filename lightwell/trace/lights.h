@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "lightwell/trace/environment.h"
+#include "lightwell/trace/sampling.h"
+#include "lightwell/trace/trace_scene.h"
+
+namespace lightwell {
+
+/// One source of light as a person would count them: a lamp of the scene, a connected piece of emissive surface, or the
+/// environment.
+struct Luminaire {
+  enum class Kind { lamp, surface, environment };
+
+  Kind kind = Kind::lamp;
+  int index = -1;  ///< lamp: into Scene::lamps; surface: into Scene::instances
+  Vec3f power{};   ///< W; of suns and the environment what enters the sphere round the scene
+  // Of a surface:
+  std::vector<uint32_t> faces;  ///< of the instance's mesh
+  Vec3f center{};               ///< mean over the area
+  Vec3f normal{};               ///< mean over the area, unit
+  float area = 0;               ///< m2
+  bool double_sided = false;
+};
+
+/// All light sources of a scene, for sampling.
+class Lights {
+ public:
+  /// `scene` must outlive the lights; only its geometry is used here.
+  explicit Lights(const TraceScene& scene);
+
+  const std::vector<Luminaire>& luminaires() const { return luminaires_; }
+  /// True when there is no light at all.
+  bool dark() const { return elements_.total() <= 0; }
+  /// Sum over all luminaires, W.
+  Vec3f power() const;
+
+  /// A photon as it leaves its source.
+  struct Emission {
+    Ray ray;       ///< far: where a lamp's range ends it (see emit)
+    Vec3f flux{};  ///< W; its mean over many emissions is power()
+    int luminaire = 0;
+  };
+  /// Emits a photon, sources being chosen by power. The range window of KHR_lights_punctual falls from 1 to 0 with the
+  /// distance, so it is taken as the chance that a photon gets that far. Must not be dark.
+  Emission emit(Random& random) const;
+
+  /// Light that may arrive at a point from a source.
+  struct Arrival {
+    Vec3f direction{};   ///< unit, towards the source
+    float distance = 0;  ///< to the source; infinite for suns and the environment
+    Vec3f radiance{};    ///< W/m2/sr divided by density; for lamps without extent irradiance facing them / probability
+    float density = 0;   ///< 1/sr; 0 for lamps without extent, which no other way of sampling finds
+    int luminaire = 0;
+  };
+  /// Chooses a source by power and a point of it. Radiance 0 when the point is behind it. Must not be dark.
+  Arrival sample(const Vec3f& point, Random& random) const;
+
+  /// The density with which sample() at `point` chooses the direction to an emissive surface's `hit`.
+  float density(const Vec3f& point, const Hit& hit) const;
+  /// The luminaire that a hit belongs to; -1 when it does not shine.
+  int luminaire(const Hit& hit) const;
+
+  const EnvironmentLight& environment() const { return environment_; }
+  /// The density with which sample() chooses a direction of the environment.
+  float environment_density(const Vec3f& direction) const;
+  /// The environment's index among the luminaires; -1 when it is black.
+  int environment_luminaire() const { return environment_luminaire_; }
+
+ private:
+  /// What the distribution chooses among: the lamps, the emissive triangles, the environment.
+  struct Element {
+    Luminaire::Kind kind;
+    int luminaire;
+    uint32_t face;  // of a surface
+  };
+  struct Triangle {
+    Vec3f corner, edge1, edge2, normal;
+    float area;
+  };
+
+  void add_lamps();
+  void add_surfaces();
+  void add_environment();
+  void add_surface(uint32_t instance);
+  Triangle triangle(const Element& element) const;
+  Vec3f emission_at(const Element& element, float u, float v) const;
+  Emission emit_from_lamp(const Lamp& lamp, Random& random) const;
+  Emission emit_from_surface(const Element& element, Random& random) const;
+  Emission emit_from_environment(Random& random) const;
+  Emission emit_from_afar(const Vec3f& direction, Random& random) const;
+  Arrival sample_lamp(const Lamp& lamp, const Vec3f& point) const;
+  Arrival sample_surface(const Element& element, const Vec3f& point, Random& random) const;
+
+  const TraceScene& scene_;
+  Vec3f center_{};  // the sphere round the scene
+  float radius_ = 0;
+  std::vector<Luminaire> luminaires_;
+  std::vector<Element> element_list_;
+  std::vector<float> weights_;
+  Distribution elements_;
+  std::vector<int> first_element_;  // of each instance, by face; -1: does not shine
+  EnvironmentLight environment_;
+  int environment_luminaire_ = -1;
+  int environment_element_ = -1;
+};
+
+/// Which luminaires a light grid holds with their direct light too, since a client cannot shadow them by itself: the
+/// environment and all lamps and surfaces beyond the `strongest` first by power. One flag a luminaire.
+std::vector<uint8_t> grid_luminaires(const Lights& lights, int strongest = 16);
+
+}  // namespace lightwell

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/base/random.h"
+#include "lightwell/scene/scene.h"
+
+namespace lightwell {
+
+/// How a point of a surface reflects: a Lambertian part and, for metals, a rough GGX lobe (Walter et al. 2007) with
+/// Schlick's Fresnel term, in the metallic share that glTF gives each of them. Reflects no more than arrives.
+/// The weak gloss of dielectrics is left out: their albedo is all diffuse, as KHR_materials_specular 0 has it exactly.
+/// Directions are unit and point away from the surface, both on the normal's side; elsewhere the value is 0.
+struct Bsdf {
+  Vec3f diffuse{};      ///< albedo of the Lambertian part
+  Vec3f metal{};        ///< reflectance of the metallic part at normal incidence
+  float metallic = 0;   ///< share of the metallic part, limits its reflectance at grazing angles
+  float roughness = 1;  ///< perceptual; the lobe's alpha is its square
+
+  static Bsdf lambertian(const Vec3f& albedo) { return {.diffuse = albedo}; }
+
+  /// The reflected share of radiance, 1/sr.
+  Vec3f value(const Vec3f& normal, const Vec3f& out, const Vec3f& in) const;
+  /// The density with which sample() chooses `in`, 1/sr.
+  float density(const Vec3f& normal, const Vec3f& out, const Vec3f& in) const;
+
+  struct Sample {
+    Vec3f in{};
+    Vec3f weight{};  ///< value * cosine / density; 0 when the direction is below the surface
+    float density = 0;
+  };
+  Sample sample(const Vec3f& normal, const Vec3f& out, Random& random) const;
+
+ private:
+  float diffuse_share() const;
+};
+
+/// What a ray finds at a point of a surface.
+struct Surface {
+  Bsdf bsdf;
+  Vec3f emission{};    ///< radiance of the front, W/m2/sr
+  float coverage = 1;  ///< the share of light that does not pass straight through (alpha, transmission)
+};
+
+/// The material at texture coordinates (two sets, as the mesh has them) under a vertex colour.
+/// Light that KHR_materials_transmission lets through goes straight on, as through a thin pane.
+Surface surface_of(const Material& material, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
+                   const Vec4f& vertex_color);
+
+/// True when some point of the material may have a coverage below 1.
+bool lets_light_pass(const Material& material);
+
+}  // namespace lightwell

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/trace/lights.h"
+
+namespace lightwell {
+
+/// A straight piece of a photon's way.
+struct Flight {
+  Vec3f origin{};
+  Vec3f direction{};       ///< unit
+  float length = 0;        ///< metres; infinite when it leaves the scene
+  Vec3f flux{};            ///< W
+  int bounces = 0;         ///< reflections so far
+  int luminaire = 0;       ///< where the photon comes from
+  bool from_back = false;  ///< it starts at the back of a surface that is not double-sided
+};
+
+/// One photon's way through a scene, flight by flight: `while (walk.next(flight)) …`. It is reflected by chance, with
+/// the probability by which its strongest colour is dimmed (Russian roulette), and carries three colours. Photon
+/// `index` of `seed` flies the same way whichever thread traces it. Its flux is that of one photon: divide by how many
+/// are traced.
+class PhotonWalk {
+ public:
+  PhotonWalk(const TraceScene& scene, uint64_t seed, uint64_t index);
+  /// The next flight; false when the photon is absorbed or gone.
+  bool next(Flight& flight);
+
+ private:
+  bool reflect(Flight& flight);
+
+  const TraceScene& scene_;
+  Random random_;
+  Hit hit_;
+  bool at_surface_ = false;
+  bool started_ = false;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "lightwell/base/random.h"
+#include "lightwell/base/vector.h"
+
+namespace lightwell {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// Two unit vectors that make a right-handed frame with the unit vector z (Duff et al. 2017).
+struct Frame {
+  Vec3f x, y, z;
+
+  explicit Frame(const Vec3f& normal);
+  Vec3f to_world(const Vec3f& v) const { return x * v[0] + y * v[1] + z * v[2]; }
+  Vec3f to_local(const Vec3f& v) const { return {{dot(v, x), dot(v, y), dot(v, z)}}; }
+};
+
+/// A direction around the unit normal with density cos / pi.
+Vec3f sample_cosine_hemisphere(const Vec3f& normal, Random& random);
+
+/// A uniform direction.
+Vec3f sample_sphere(Random& random);
+
+/// A uniform point of the unit disc, z = 0.
+Vec3f sample_disc(Random& random);
+
+/// Uniform barycentric coordinates of a triangle's second and third corner.
+Vec2f sample_triangle(Random& random);
+
+/// The power heuristic of Veach 1995 for one sample of each of two densities: the weight of the first.
+inline float power_heuristic(float of_this, float of_other) {
+  const float a = of_this * of_this, b = of_other * of_other;
+  return a > 0 ? a / (a + b) : 0;
+}
+
+/// Chooses an index with a probability proportional to its weight.
+class Distribution {
+ public:
+  Distribution() = default;
+  /// Weights are finite and not negative.
+  explicit Distribution(const std::vector<float>& weights);
+
+  /// The sum of the weights; when it is 0 there is nothing to sample.
+  double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
+  size_t size() const { return cumulative_.size(); }
+  /// The index for a uniform number in [0, 1). The total must not be 0.
+  size_t sample(float uniform) const;
+  /// The probability of an index.
+  float probability(size_t index) const;
+
+ private:
+  std::vector<double> cumulative_;
+};
+
+}  // namespace lightwell
