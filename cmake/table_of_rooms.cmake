@@ -4,7 +4,8 @@
 # "arrows" fails when an include runs against this table.
 lightwell_room(base LIBRARIES Threads::Threads lightwell_expected ZLIB::ZLIB BAKER_ONLY parallel_threads.cpp file.cpp)
 lightwell_room(mesh DEPENDS base)
-lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp)
+lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp
+               BAKER_ONLY image_file.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
 lightwell_room(light DEPENDS base)
 lightwell_room(pack DEPENDS base)
 lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_json draco::draco meshoptimizer::meshoptimizer)

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
+#include "lightwell/texture/image.h"
+#include "lightwell/texture/image_format.h"
+
+namespace lightwell {
+
+/// What an image may hold at most; checked before memory is asked for.
+constexpr uint64_t max_image_side = 16384;
+constexpr uint64_t max_image_pixels = uint64_t(1) << 28;
+
+/// Fails when an image of this size is empty or beyond the limits.
+Result<void> check_image_size(uint64_t width, uint64_t height);
+
+/// Decodes a PNG, JPEG or WebP file, recognised by content. Sixteen bits become eight, palettes and bit depths below
+/// eight are expanded, CMYK becomes RGB; channels stay as they are otherwise. Colour profiles and gamma chunks are
+/// ignored, as glTF asks (section 3.8.3). Errors name the format and the reason; any bytes are safe.
+Result<Image> read_image_file(Bytes file);
+
+/// The readers of one format each, behind read_image_file.
+Result<Image> read_png(Bytes file);
+Result<Image> read_jpeg(Bytes file);
+Result<Image> read_webp(Bytes file);
+
+/// A PNG file of an image of one to four channels.
+std::vector<uint8_t> write_png(const Image& image);
+
+/// A JPEG file of an image of one or three channels; quality as in libjpeg, 1 to 100.
+std::vector<uint8_t> write_jpeg(const Image& image, int quality);
+
+/// The small picture that stands for a texture in a pack's opening: the mip of at most `longest_side` pixels a side, as
+/// PNG or, where that is smaller and nothing is transparent, JPEG. `color`: see smallest_mip.
+std::vector<uint8_t> write_preview(const Image& image, int longest_side, bool color);
+
+}  // namespace lightwell

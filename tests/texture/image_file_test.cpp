@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/texture/image_file.h"
+
+#include <gtest/gtest.h>
+#include <webp/encode.h>
+#include <zlib.h>
+
+#include <cstdio>
+#include <cstdlib>
+// jpeglib.h needs what cstdio declares.
+#include <jpeglib.h>
+
+#include "lightwell/base/random.h"
+
+namespace lightwell {
+namespace {
+
+Image noise(int width, int height, int channels) {
+  Image image{width, height, channels, {}};
+  Random random(3, static_cast<uint64_t>(channels));
+  for (int i = 0; i < width * height * channels; i++) image.pixels.push_back(static_cast<uint8_t>(random.below(256)));
+  return image;
+}
+
+Image constant(int width, int height, std::vector<uint8_t> pixel) {
+  Image image{width, height, static_cast<int>(pixel.size()), {}};
+  for (int i = 0; i < width * height; i++) image.pixels.insert(image.pixels.end(), pixel.begin(), pixel.end());
+  return image;
+}
+
+void append_big_endian(std::vector<uint8_t>& out, uint32_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<uint8_t>(value >> shift));
+}
+
+void append_chunk(std::vector<uint8_t>& png, const std::string& type, std::vector<uint8_t> data) {
+  append_big_endian(png, static_cast<uint32_t>(data.size()));
+  data.insert(data.begin(), type.begin(), type.end());
+  png.insert(png.end(), data.begin(), data.end());
+  append_big_endian(png, static_cast<uint32_t>(crc32(0, data.data(), static_cast<uInt>(data.size()))));
+}
+
+/// A PNG as its specification puts it together: any depth and colour type, rows given as packed bytes.
+std::vector<uint8_t> hand_made_png(uint32_t width, uint32_t height, uint8_t depth, uint8_t color_type,
+                                   std::vector<uint8_t> rows, const std::vector<uint8_t>& palette = {}) {
+  std::vector<uint8_t> png = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  std::vector<uint8_t> header;
+  append_big_endian(header, width);
+  append_big_endian(header, height);
+  for (const uint8_t byte : {depth, color_type, uint8_t(0), uint8_t(0), uint8_t(0)}) header.push_back(byte);
+  append_chunk(png, "IHDR", header);
+  if (!palette.empty()) append_chunk(png, "PLTE", palette);
+  const size_t stride = rows.size() / height;
+  for (size_t y = height; y-- > 0;) rows.insert(rows.begin() + static_cast<ptrdiff_t>(y * stride), 0);
+  std::vector<uint8_t> packed(compressBound(rows.size()));
+  uLongf size = packed.size();
+  compress(packed.data(), &size, rows.data(), rows.size());
+  packed.resize(size);
+  append_chunk(png, "IDAT", packed);
+  append_chunk(png, "IEND", {});
+  return png;
+}
+
+std::vector<uint8_t> cmyk_jpeg(const Image& image, bool adobe) {
+  jpeg_compress_struct codec{};
+  jpeg_error_mgr errors{};
+  codec.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&codec);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&codec, &bytes, &size);
+  codec.image_width = static_cast<JDIMENSION>(image.width);
+  codec.image_height = static_cast<JDIMENSION>(image.height);
+  codec.input_components = 4;
+  codec.in_color_space = JCS_CMYK;
+  jpeg_set_defaults(&codec);
+  codec.write_Adobe_marker = adobe;
+  jpeg_set_quality(&codec, 95, TRUE);
+  jpeg_start_compress(&codec, TRUE);
+  for (size_t y = 0; y < codec.image_height; y++) {
+    auto* row = const_cast<JSAMPROW>(&image.pixels[y * codec.image_width * 4]);
+    jpeg_write_scanlines(&codec, &row, 1);
+  }
+  jpeg_finish_compress(&codec);
+  std::vector<uint8_t> file(bytes, bytes + size);
+  jpeg_destroy_compress(&codec);
+  std::free(bytes);
+  return file;
+}
+
+std::vector<uint8_t> lossless_webp(const Image& image) {
+  uint8_t* bytes = nullptr;
+  const auto encode = image.channels == 4 ? WebPEncodeLosslessRGBA : WebPEncodeLosslessRGB;
+  const size_t size = encode(image.pixels.data(), image.width, image.height, image.width * image.channels, &bytes);
+  std::vector<uint8_t> file(bytes, bytes + size);
+  WebPFree(bytes);
+  return file;
+}
+
+void expect_equal(const Result<Image>& read, const Image& expected) {
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->width, expected.width);
+  EXPECT_EQ(read->height, expected.height);
+  EXPECT_EQ(read->channels, expected.channels);
+  EXPECT_EQ(read->pixels, expected.pixels);
+}
+
+/// Every prefix of a file gives an image or a one-line error.
+void expect_total_on_prefixes(const std::vector<uint8_t>& file) {
+  for (size_t size = 0; size < file.size(); size++) {
+    const auto read = read_image_file(Bytes(file).first(size));
+    EXPECT_TRUE(read || read.error().message().find('\n') == std::string::npos);
+  }
+}
+
+TEST(Png, RoundTripsEveryNumberOfChannels) {
+  for (int channels = 1; channels <= 4; channels++) {
+    const Image image = noise(7, 5, channels);
+    expect_equal(read_image_file(write_png(image)), image);
+  }
+}
+
+TEST(Png, ReducesSixteenBitsToEight) {
+  const std::vector<uint8_t> rows = {0x00, 0x00, 0x80, 0x80, 0xff, 0xff};
+  expect_equal(read_png(hand_made_png(3, 1, 16, 0, rows)), {3, 1, 1, {0, 128, 255}});
+}
+
+TEST(Png, ExpandsPalettesAndFewBits) {
+  const std::vector<uint8_t> palette = {10, 20, 30, 40, 50, 60, 70, 80, 90};
+  expect_equal(read_png(hand_made_png(4, 1, 2, 3, {0b00011000}, palette)),
+               {4, 1, 3, {10, 20, 30, 40, 50, 60, 70, 80, 90, 10, 20, 30}});
+  expect_equal(read_png(hand_made_png(4, 2, 1, 0, {0b10100000, 0b01010000})),
+               {4, 2, 1, {255, 0, 255, 0, 0, 255, 0, 255}});
+}
+
+TEST(Png, RefusesHugeAndDamagedFiles) {
+  EXPECT_FALSE(read_png(hand_made_png(16385, 1, 8, 0, std::vector<uint8_t>(1))));
+  EXPECT_FALSE(read_png(hand_made_png(4, 1, 2, 3, {0})));  // no palette
+  auto damaged = write_png(noise(9, 9, 3));
+  damaged[40] ^= 0x10;
+  EXPECT_FALSE(read_png(damaged));
+  expect_total_on_prefixes(write_png(noise(6, 6, 4)));
+}
+
+// Quality 95 keeps a constant colour within 3 of 255: what the rounding of YCbCr and of one quantised coefficient
+// leaves.
+TEST(Jpeg, KeepsConstantGreyAndColour) {
+  for (const Image& image : {constant(17, 9, {77}), constant(17, 9, {200, 100, 50})}) {
+    const auto read = read_image_file(write_jpeg(image, 95));
+    ASSERT_TRUE(read) << read.error().message();
+    ASSERT_EQ(read->pixels.size(), image.pixels.size());
+    for (size_t i = 0; i < image.pixels.size(); i++) ASSERT_NEAR(read->pixels[i], image.pixels[i], 3);
+  }
+}
+
+TEST(Jpeg, TurnsInksIntoColour) {
+  // Half cyan, no magenta, all yellow, a fifth black: (1 - ink) (1 - black); Adobe's files hold the complements.
+  const Image inks = constant(8, 8, {128, 0, 255, 51}), complements = constant(8, 8, {127, 255, 0, 204});
+  for (const auto& file : {cmyk_jpeg(inks, false), cmyk_jpeg(complements, true)}) {
+    const auto read = read_jpeg(file);
+    ASSERT_TRUE(read) << read.error().message();
+    ASSERT_EQ(read->channels, 3);
+    EXPECT_NEAR(read->pixels[0], 0.5 * 0.8 * 255, 4);
+    EXPECT_NEAR(read->pixels[1], 0.8 * 255, 4);
+    EXPECT_NEAR(read->pixels[2], 0, 4);
+  }
+}
+
+TEST(Jpeg, RefusesShortFiles) {
+  const auto file = write_jpeg(noise(40, 40, 3), 90);
+  EXPECT_FALSE(read_jpeg(Bytes(file).first(file.size() / 2)));
+  expect_total_on_prefixes(write_jpeg(noise(9, 9, 3), 50));
+}
+
+TEST(WebP, ReadsColourWithAndWithoutAlpha) {
+  expect_equal(read_image_file(lossless_webp(noise(11, 6, 3))), noise(11, 6, 3));
+  Image image = noise(11, 6, 4);
+  for (size_t i = 3; i < image.pixels.size(); i += 4)
+    image.pixels[i] |= 1;  // fully transparent pixels lose their colour
+  expect_equal(read_image_file(lossless_webp(image)), image);
+  expect_total_on_prefixes(lossless_webp(noise(5, 5, 4)));
+}
+
+TEST(ImageFile, RefusesWhatItDoesNotKnow) {
+  EXPECT_FALSE(read_image_file({}));
+  EXPECT_FALSE(read_image_file(as_bytes("GIF89a")));
+  EXPECT_FALSE(check_image_size(0, 5));
+  EXPECT_FALSE(check_image_size(16385, 1));
+  EXPECT_TRUE(check_image_size(16384, 16384));
+}
+
+TEST(ImageFile, SurvivesFlippedBits) {
+  Random random(5, 0);
+  for (const auto& file :
+       {write_png(noise(12, 12, 3)), write_jpeg(noise(12, 12, 3), 70), lossless_webp(noise(12, 12, 4))}) {
+    for (int i = 0; i < 500; i++) {
+      auto damaged = file;
+      damaged[random.below(static_cast<uint32_t>(file.size()))] ^= static_cast<uint8_t>(1 + random.below(255));
+      const auto read = read_image_file(damaged);
+      ASSERT_TRUE(!read || read->pixels.size() == static_cast<size_t>(read->width * read->height * read->channels));
+    }
+  }
+}
+
+TEST(Preview, IsTheSmallerOfPngAndJpeg) {
+  const auto few_colors = write_preview(constant(64, 64, {200, 100, 50, 255}), 16, true);
+  EXPECT_EQ(image_format(few_colors), ImageFormat::png);
+  const auto opaque = read_image_file(few_colors);
+  ASSERT_TRUE(opaque);
+  EXPECT_EQ(opaque->channels, 3);
+  EXPECT_EQ(image_format(write_preview(noise(64, 64, 3), 64, true)), ImageFormat::jpeg);
+  EXPECT_EQ(image_format(write_preview(noise(64, 64, 4), 64, true)), ImageFormat::png);
+}
+
+}  // namespace
+}  // namespace lightwell
