@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "lightwell/cli/console.h"
+
+namespace lightwell {
+
+/// Adds a command to the program: its name, help, options, and the function that does it. The function returns the exit
+/// status: 0, 1 for bad input, 2 for bad usage.
+using AddCommand = CLI::App* (*)(CLI::App& program, Console& console, std::function<int()>& chosen);
+
+CLI::App* add_scenes(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_bake(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_info(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_verify(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_serve(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_fetch(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_render(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_probe(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_export(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_diff(CLI::App&, Console&, std::function<int()>&);
+
+}  // namespace lightwell
