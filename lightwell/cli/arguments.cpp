@@ -76,7 +76,9 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
           "--up", [&options](const std::string& axis) { options.up = axis[0]; }, "The file's axis that points up")
       ->check(CLI::IsMember({"y", "z"}))
       ->default_str("y");
-  command.add_option("--unit", options.unit, "Length of the file's unit in metres")->capture_default_str()->check(CLI::PositiveNumber);
+  command.add_option("--unit", options.unit, "Length of the file's unit in metres")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
   command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
 }
 

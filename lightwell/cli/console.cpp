@@ -21,9 +21,12 @@ void note_interrupt(int signal) {
 // "8.00 M", "25.3 k", "512"
 std::string short_number(double value) {
   char text[32];
-  if (value >= 1e6) std::snprintf(text, sizeof text, "%.2f M", value / 1e6);
-  else if (value >= 1e4) std::snprintf(text, sizeof text, "%.1f k", value / 1e3);
-  else std::snprintf(text, sizeof text, "%.0f", value);
+  if (value >= 1e6)
+    std::snprintf(text, sizeof text, "%.2f M", value / 1e6);
+  else if (value >= 1e4)
+    std::snprintf(text, sizeof text, "%.1f k", value / 1e3);
+  else
+    std::snprintf(text, sizeof text, "%.0f", value);
   return text;
 }
 
@@ -116,7 +119,8 @@ void ConsoleProgress::end_stage() {
   if (name_.empty() || !enabled_) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::fprintf(stderr, "%s%s: %.1f s", terminal_ ? "\r\033[K" : "", name_.c_str(), seconds);
-  if (total_ > 0 && seconds > 0) std::fprintf(stderr, ", %s %s/s", short_number(total_ / seconds).c_str(), unit_.c_str());
+  if (total_ > 0 && seconds > 0)
+    std::fprintf(stderr, ", %s %s/s", short_number(total_ / seconds).c_str(), unit_.c_str());
   std::fputc('\n', stderr);
   name_.clear();
 }
