@@ -13,10 +13,10 @@ using Face = std::array<uint32_t, 3>;
 /// An indexed triangle mesh. Every attribute that is present has one entry a vertex; an absent one is empty.
 struct Mesh {
   std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;                     ///< unit; absent: shade with the triangle's geometric normal
-  std::array<std::vector<Vec2f>, 2> texcoords;    ///< glTF's TEXCOORD_0 and TEXCOORD_1
-  std::vector<Vec4f> colors;                      ///< linear RGBA in [0, 1]
-  std::vector<Face> faces;                        ///< counter-clockwise seen from the front; indices below positions.size()
+  std::vector<Vec3f> normals;                   ///< unit; absent: shade with the triangle's geometric normal
+  std::array<std::vector<Vec2f>, 2> texcoords;  ///< glTF's TEXCOORD_0 and TEXCOORD_1
+  std::vector<Vec4f> colors;                    ///< linear RGBA in [0, 1]
+  std::vector<Face> faces;  ///< counter-clockwise seen from the front; indices below positions.size()
 
   Box3f bounds() const;
 };

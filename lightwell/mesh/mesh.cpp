@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/mesh/mesh.h"
+
+namespace lightwell {
+
+Box3f Mesh::bounds() const {
+  Box3f box;
+  for (const Vec3f& p : positions) box.extend(p);
+  return box;
+}
+
+std::vector<Vec3f> smooth_normals(const Mesh& mesh) {
+  // In double precision, so that neither tiny nor huge triangles lose their area to underflow or overflow.
+  std::vector<Vec3d> sums(mesh.positions.size());
+  for (const Face& face : mesh.faces) {
+    const Vec3d a = mesh.positions[face[0]].cast<double>();
+    const Vec3d normal = cross(mesh.positions[face[1]].cast<double>() - a, mesh.positions[face[2]].cast<double>() - a);
+    for (const uint32_t v : face) sums[v] += normal;
+  }
+  std::vector<Vec3f> normals(sums.size());
+  for (size_t v = 0; v < sums.size(); v++) {
+    const double area = length(sums[v]);
+    normals[v] = area > 0 ? (sums[v] / area).cast<float>() : Vec3f{{0, 1, 0}};
+  }
+  return normals;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lightwell/base/progress.h"
+#include "lightwell/base/result.h"
+#include "lightwell/mesh/quantize.h"
+
+namespace lightwell {
+
+struct SimplifyOptions {
+  QuantizeOptions quantize;
+  /// Vertices that the coarsest level may have; it has fewer, by up to a third. What cannot be simplified so far stays.
+  uint32_t base_vertices = 300;
+};
+
+/// A mesh whose vertices are in order of refinement: those of the coarsest level, then pass by pass the ones that
+/// splits add. The level of n vertices (n not inside a point) is the final mesh with every corner replaced by its
+/// nearest ancestor below n, without the faces that then have two corners at one point.
+struct ProgressiveMesh {
+  /// Splits that do not depend on each other: the points up to point_end.
+  struct Pass {
+    uint32_t point_end = 0;
+    float error = 0;  ///< distance of the level before this pass from the final one, in the mesh's units; an estimate
+  };
+
+  /// The final level. Faces are in order of appearance; the loose ones (degenerate or repeated), which take no part in
+  /// the refinement, come last.
+  QuantizedMesh mesh;
+  std::vector<uint32_t> parent;          ///< of each vertex: a smaller number; of one of the base: itself
+  std::vector<uint32_t> first_of_point;  ///< the vertices of point i are first_of_point[i] up to first_of_point[i + 1]
+  uint32_t base_points = 0;
+  uint32_t base_faces = 0;
+  uint32_t loose_faces = 0;
+  std::vector<Pass> passes;  ///< coarse to fine
+};
+
+/// Quantises the mesh and orders it by half-edge collapse. Errors: a position that is not finite; cancelled by the
+/// user. The mesh's indices must be in range.
+Result<ProgressiveMesh> build_progressive(const Mesh& mesh, const SimplifyOptions& options, Progress& progress);
+
+}  // namespace lightwell

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "lightwell/base/result.h"
+#include "lightwell/mesh/mesh.h"
+#include "lightwell/mesh/vertex_codes.h"
+
+namespace lightwell {
+
+struct QuantizeOptions {
+  /// Largest deviation of a coordinate, in the mesh's units. 0: 14 bits for the longest side of the bounding box. At
+  /// most 21 bits are used, and no more than the floats of the input hold.
+  float position_error = 0;
+};
+
+/// A mesh in integers: positions and texcoords on lattices, normals on the octahedral grid, colours in 8 bits. Its
+/// vertices are the distinct tuples that faces use; all faces of the input are there, degenerate and repeated ones,
+/// too. Absent attributes are empty.
+struct QuantizedMesh {
+  Lattice position_lattice;
+  std::array<Lattice, 2> texcoord_lattices;
+  std::vector<Vec3i> positions;
+  std::vector<NormalCode> normals;
+  std::array<std::vector<Vec<int, 2>>, 2> texcoords;
+  std::vector<std::array<uint8_t, 4>> colors;
+  std::vector<Face> faces;
+};
+
+/// Quantises a mesh whose indices are in range. The vertices come in Morton order of their positions, those of one
+/// position next to each other. Errors: a position that a face uses is not finite or beyond 1e37.
+Result<QuantizedMesh> quantize(const Mesh& mesh, const QuantizeOptions& options);
+
+/// The mesh that the codes stand for.
+Mesh dequantize(const QuantizedMesh& mesh);
+
+}  // namespace lightwell

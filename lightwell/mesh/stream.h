@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
+#include "lightwell/mesh/mesh.h"
+#include "lightwell/mesh/vertex_codes.h"
+
+namespace lightwell {
+
+struct ProgressiveMesh;
+class Refinement;
+
+/// What a client must know of a mesh stream before its first block: the stream's parameters in docs/format.md.
+struct MeshLayout {
+  uint32_t vertices = 0, faces = 0;            ///< of the final level
+  uint32_t base_vertices = 0, base_faces = 0;  ///< of the coarsest level
+  uint32_t loose_faces = 0;                    ///< of faces: degenerate and repeated ones, which come last
+  bool has_normals = false, has_colors = false;
+  std::array<bool, 2> has_texcoords{};
+  Lattice positions;
+  std::array<Lattice, 2> texcoords;
+  float base_error = 0;  ///< distance of the coarsest level from the final one, in the mesh's units; an estimate
+
+  void write(ByteWriter& writer) const;
+  /// Reads what write() wrote. Errors: too short, an unknown flag, counts or exponents that contradict each other.
+  static Result<MeshLayout> read(ByteReader& reader);
+};
+
+/// A part of the stream, decodable when all before it were.
+struct MeshBlock {
+  std::vector<uint8_t> payload;
+  uint32_t vertices = 0;  ///< that it adds
+  float error = 0;        ///< that remains after it, as MeshLayout::base_error; 0 when the mesh is complete
+};
+
+struct EncodedMesh {
+  MeshLayout layout;
+  Mesh base;  ///< the coarsest level; stored as floats, colours as 8 bits, it gives the decoder its codes back exactly
+  std::vector<MeshBlock> blocks;
+};
+
+/// Writes a progressive mesh as layout, base and blocks of about `block_vertices` new vertices.
+EncodedMesh encode(const ProgressiveMesh& mesh, uint32_t block_vertices = 1024);
+
+using Color8 = std::array<uint8_t, 4>;
+using Normal16 = std::array<int16_t, 4>;
+
+/// The arrays of a coarsest level as they come from glTF accessors. Absent attributes are empty.
+struct MeshArrays {
+  std::span<const Vec3f> positions, normals;
+  std::array<std::span<const Vec2f>, 2> texcoords;
+  std::span<const Color8> colors;
+  std::span<const uint32_t> indices;  ///< three a face
+};
+
+/// A run of elements of a buffer.
+struct BufferRange {
+  uint32_t first = 0, count = 0;
+
+  bool operator==(const BufferRange&) const = default;
+};
+
+/// What has changed in a decoder's buffers.
+struct MeshChanges {
+  BufferRange vertices;              ///< new ones
+  BufferRange indices;               ///< those of new faces
+  std::vector<BufferRange> rewired;  ///< indices of older faces; ascending, gaps of up to 256 indices included
+};
+
+/// Refines a mesh block by block in buffers that have their final size from the start and are ready for the GPU. After
+/// every block the first faces() faces refer to the first vertices() vertices only: each level can be drawn.
+class MeshDecoder {
+ public:
+  /// Allocates the buffers and fills in the coarsest level. `stream_bytes` is the sum of all blocks' payloads: a layout
+  /// that promises more than so many bytes can hold is refused before anything is allocated. Errors: that, and a base
+  /// that does not fit the layout.
+  static Result<MeshDecoder> open(const MeshLayout& layout, const MeshArrays& base, uint64_t stream_bytes);
+
+  MeshDecoder(MeshDecoder&&) noexcept;
+  MeshDecoder& operator=(MeshDecoder&&) noexcept;
+  ~MeshDecoder();
+
+  /// Decodes the next block. After an error the mesh stands as the last intact split left it, drawable, and takes no
+  /// further block.
+  Result<void> append(Bytes payload);
+
+  const MeshLayout& layout() const;
+  uint32_t vertices() const;  ///< decoded so far
+  uint32_t faces() const;
+  bool complete() const;  ///< the final level is reached
+
+  /// The buffers, of their final size; beyond vertices() and faces() they hold zeros.
+  std::span<const Vec3f> positions() const;
+  std::span<const Normal16> normals() const;  ///< signed normalised x, y, z and 0; empty without normals
+  std::span<const Vec2f> texcoords(int set) const;
+  std::span<const Color8> colors() const;
+  std::span<const uint32_t> indices() const;
+
+  /// The changes since the last call; the first call reports the coarsest level, too.
+  MeshChanges take_changes();
+
+ private:
+  explicit MeshDecoder(std::unique_ptr<Refinement> mesh);
+
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "lightwell/base/vector.h"
+
+namespace lightwell {
+
+/// The numbers that are multiples of 2^exponent. One that is at most `limit` steps from zero is an exact float, so
+/// value and code are the same thing, on every machine; and meshes of one exponent share their lattice, so that no
+/// crack opens between them.
+struct Lattice {
+  static constexpr int32_t limit = 1 << 23;
+  static constexpr int min_exponent = -100, max_exponent = 104;
+
+  int8_t exponent = 0;
+
+  bool operator==(const Lattice&) const = default;
+  float step() const { return std::ldexp(1.0f, exponent); }
+  float value(int32_t code) const { return static_cast<float>(code) * step(); }
+  /// The nearest code, clamped to the limit; exact for values on the lattice. Anything that is no number gives zero.
+  int32_t code(float value) const;
+};
+
+/// A unit vector on the octahedral grid of 1023 x 1023 directions (10 bits an axis, Meyer et al. 2010), -511 ... 511.
+struct NormalCode {
+  int16_t u = 0, v = 0;
+
+  bool operator==(const NormalCode&) const = default;
+  auto operator<=>(const NormalCode&) const = default;
+};
+
+/// The code of the direction of n, the same for every length but zero; a direction on the grid gives back its code.
+/// A zero vector counts as +y.
+NormalCode normal_code(const Vec3f& n);
+
+/// The same for a vector of integers of any size, in integers alone: it predicts normals from the faces.
+NormalCode normal_code(const Vec<int64_t, 3>& n);
+
+/// The unit vector of a code.
+Vec3f normal_of(NormalCode code);
+
+/// A colour channel in [0, 1] as 8 bits, and back.
+uint8_t color_code(float channel);
+inline float color_of(uint8_t code) { return static_cast<float>(code) / 255.0f; }
+
+}  // namespace lightwell
