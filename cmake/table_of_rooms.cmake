@@ -7,7 +7,7 @@ lightwell_room(mesh DEPENDS base BAKER_ONLY quantize.cpp collapse.cpp progressiv
 lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp
                BAKER_ONLY image_file.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
 lightwell_room(light DEPENDS base)
-lightwell_room(pack DEPENDS base)
+lightwell_room(pack DEPENDS base BAKER_ONLY content_hash.cpp reader.cpp writer.cpp)
 lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_json draco::draco meshoptimizer::meshoptimizer)
 lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
 lightwell_room(trace DEPENDS scene base LIBRARIES embree)

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/client/update.h"
+#include "lightwell/light/push_pull.h"
+
+namespace lightwell {
+
+enum class Strategy : uint8_t {
+  interleave,  ///< whatever takes most of the error away per byte
+  geometry,    ///< all meshes, then textures, then light
+  light        ///< all light, then meshes and textures
+};
+
+struct ClientOptions {
+  Strategy strategy = Strategy::interleave;
+  Fill fill = Fill::push_pull;  ///< how nodes of the light grid that have not arrived are filled
+  uint64_t seed = 1;            ///< of the jitter between retries
+};
+
+/// What the client wants of its transport.
+struct Action {
+  enum class Kind : uint8_t {
+    ask,    ///< send a request for the bytes first ... last (HTTP: "Range: bytes=first-last" and no other header)
+    cancel  ///< drop the request `id`; nothing more about it is to be told
+  };
+  Kind kind = Kind::ask;
+  uint32_t id = 0;
+  uint64_t first = 0;
+  uint64_t last = 0;  ///< inclusive
+};
+
+/// What a server said before the body, header by header; a field that the transport cannot see is empty.
+struct ResponseHead {
+  int status = 0;
+  std::string_view content_range;
+  std::string_view etag;
+};
+
+struct ClientProgress {
+  uint64_t bytes = 0;                                     ///< of the file, received and good
+  uint64_t bytes_total = 0;                               ///< of the file; 0 while unknown
+  uint64_t geometry_bytes = 0, geometry_bytes_total = 0;  ///< blocks of meshes and textures
+  uint64_t light_bytes = 0, light_bytes_total = 0;
+  uint64_t faces = 0, faces_total = 0;
+  uint64_t nodes = 0, nodes_total = 0;  ///< of light grids
+  uint32_t requests = 0;                ///< sent
+  uint32_t retries = 0;                 ///< consecutive failures: not 0 while the server is away
+};
+
+/// Streams a pack: decides what to ask for, checks and decodes what comes, and hands over buffers. It has no clock, no
+/// thread and no I/O: whoever drives it tells it the time (seconds, from any start) and carries its requests.
+/// docs/format.md says what it reads, docs/streaming.md how it decides.
+///
+/// A driver, in turn: performs next() until it gives nothing; reports to respond(), receive(), finish() or fail() what
+/// happens; calls work() while it says so; applies take() while it gives something; and comes back at wake() at the
+/// latest.
+class Client {
+ public:
+  explicit Client(const ClientOptions& options);
+  Client(Client&&) noexcept;
+  Client& operator=(Client&&) noexcept;
+  ~Client();
+
+  /// The next thing to do, if any.
+  std::optional<Action> next(double now);
+  /// The response to request `id` begins.
+  void respond(uint32_t id, const ResponseHead& head, double now);
+  /// The next bytes of its body.
+  void receive(uint32_t id, Bytes bytes, double now);
+  /// Its body ended, where it should or not.
+  void finish(uint32_t id, double now);
+  /// It got no response, or the connection broke.
+  void fail(uint32_t id, double now);
+
+  /// Decodes at most one block (about a millisecond) and says whether another waits.
+  bool work();
+  /// The next piece to hand over, with at most about `budget` bytes (a light grid, texture or opening comes whole);
+  /// nothing when there is none.
+  std::optional<Update> take(size_t budget);
+
+  /// When to call next() again although nothing was reported: the end of a pause before a retry, or of the patience
+  /// with a silent server; infinity when only a report or take() can bring something new.
+  double wake(double now) const;
+
+  /// How much a stream matters to the present picture, 1 at first: error of `weight` times the size is as bad. Meshes:
+  /// pixels a metre times the share of the picture that the object covers; light: the visible share of the grid. 0 puts
+  /// it last.
+  void set_weight(uint32_t stream, float weight);
+
+  ClientProgress progress() const;
+  /// True when everything has been handed over, or nothing more will be.
+  bool ended() const;
+
+ private:
+  class Machine;
+  std::unique_ptr<Machine> machine_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+/// The client as a WebAssembly module: lightwell.wasm. It imports nothing; `_initialize()` is called once after
+/// instantiation.
+///
+/// Everything is a number. A `client` is a handle from lw_create. Bytes go in through the buffer that lw_input returns,
+/// and come out as a pointer and a length into the module's memory. Such bytes, and the record, are good until the next
+/// call of any function: copy them, and make a new view of memory.buffer after every call, since memory may have grown.
+/// Times are seconds from any start, as a double. A reserved or unused word of the record is 0.
+extern "C" {
+
+/// The version of this interface: 1.
+uint32_t lw_abi_version();
+
+/// A client. strategy: 0 interleave, 1 geometry, 2 light. fill: 0 none, 1 push-pull, 2 push-pull-smooth.
+uint32_t lw_create(uint32_t strategy, uint32_t fill, uint32_t seed);
+void lw_destroy(uint32_t client);
+
+/// A buffer of at least `length` bytes for what is passed to the next call.
+uint8_t* lw_input(uint32_t length);
+/// The record: 32 words of 32 bits, little-endian, where functions below leave their results.
+const uint32_t* lw_record();
+
+/// The next thing the client wants, 0 for nothing; call until it returns 0.
+///   1 ask: [0] request, [1] first byte, [2] last byte (inclusive): fetch with the header "Range: bytes=first-last"
+///   only 2 cancel: [0] request: abort it and report nothing more of it
+uint32_t lw_next(uint32_t client, double now);
+/// The response's head. The input holds the Content-Range header's text and behind it the ETag's; a length is 0 when
+/// the header is absent or may not be read.
+void lw_respond(uint32_t client, uint32_t request, uint32_t status, uint32_t content_range_length, uint32_t etag_length,
+                double now);
+/// The next `length` bytes of a body, in the input.
+void lw_receive(uint32_t client, uint32_t request, uint32_t length, double now);
+/// The body ended.
+void lw_finish(uint32_t client, uint32_t request, double now);
+/// No response, or the connection broke.
+void lw_fail(uint32_t client, uint32_t request, double now);
+/// When to call lw_next again although nothing happened; infinity when there is no need.
+double lw_wake(uint32_t client, double now);
+
+/// Decodes at most one block; 1 when another waits.
+uint32_t lw_work(uint32_t client);
+/// The next update, of at most about `budget` bytes, 0 for none; apply them in the order in which they come.
+///   1 opening:  [0] pointer, [1] length: a GLB for GLTFLoader
+///   2 mesh:     [0] stream, [1] vertices, [2] faces, [3] number of attributes, then a word for each:
+///               semantic (0 position, 1 normal, 2 texcoord_0, 3 texcoord_1, 4 color) | component << 8 (0 i8, 1 u8, 2
+///               i16, 3 u16, 4 f32) | numbers a vertex << 16 | stride in bytes << 20 | normalized << 31
+///   3 range:    [0] stream, [1] buffer (an attribute of the mesh, or 255: indices), [2] offset in bytes, [3] pointer,
+///   [4] length 4 draw:     [0] stream, [1] vertices, [2] faces: draw 3 * faces indices from now on 5 light:    [0]
+///   stream, [1] width, [2] height, [3] depth, [4] nodes received, [5] pointer, [6] length: RGBA16F texels 6 texture:
+///   [0] stream, [1] format (0 PNG, 1 JPEG, 2 WebP), [2] width, [3] height, [4] pointer, [5] length: an image file 7
+///   complete 8 failure:  [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
+uint32_t lw_take(uint32_t client, uint32_t budget);
+
+/// How much a stream matters to the present picture (Client::set_weight).
+void lw_set_weight(uint32_t client, uint32_t stream, float weight);
+
+/// Progress. Byte counts are below 4 GiB:
+///   [0] bytes, [1] of, [2] geometry bytes, [3] of, [4] light bytes, [5] of, [6] faces, [7] of, [8] nodes, [9] of, [10]
+///   requests, [11] consecutive failures (not 0 while the server is away)
+void lw_progress(uint32_t client);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/pack/opening.h"
+
+#include <algorithm>
+
+#include "lightwell/base/assert.h"
+#include "lightwell/pack/directory.h"
+
+namespace lightwell {
+
+Result<OpeningSize> measure_opening(Bytes prefix) {
+  OpeningSize size;
+  size.needed = glb_header_bytes + chunk_header_bytes;
+  if (prefix.size() < size.needed) return size;
+  ByteReader header(prefix);
+  if (header.u32() != glb_magic) return fail("header", "is not that of a binary glTF");
+  if (const uint32_t version = header.u32(); version != 2)
+    return fail("header", "is of glTF version " + std::to_string(version));
+  size.file_length = header.u32();
+
+  uint64_t at = glb_header_bytes;
+  for (const uint32_t wanted : {chunk_json, chunk_bin, chunk_lwst}) {
+    size.needed = at + chunk_header_bytes;
+    if (size.needed > size.file_length)
+      return fail("header", "the file has no LWST chunk: it is a glTF, but not a pack");
+    if (prefix.size() < size.needed) return size;
+    ByteReader chunk(prefix.subspan(at));
+    const uint32_t length = chunk.u32();
+    const uint32_t type = chunk.u32();
+    if (length > size.file_length - size.needed) return fail("chunk", "reaches beyond the end of the file");
+    if (type == chunk_bin && wanted == chunk_lwst) return fail("chunk", "BIN stands twice");
+    if (type == chunk_lwst && wanted != chunk_json) {
+      if (size.needed + length != size.file_length) return fail("LWST chunk", "does not end with the file");
+      at = size.needed;
+      break;
+    }
+    if (type != wanted) return fail("chunk", "the file's chunks are not JSON, BIN, LWST: it is a glTF, but not a pack");
+    at = size.needed + length;
+  }
+  size.opening_length = at;
+  size.needed = at + sizeof(uint32_t);
+  if (prefix.size() < size.needed) return size;
+  const uint32_t directory = ByteReader(prefix.subspan(at)).u32();
+  if (directory > max_directory_bytes || directory > size.file_length - at || directory < sizeof(uint32_t))
+    return fail("directory", "its length is wrong");
+  size.needed = at + directory;
+  size.complete = true;
+  return size;
+}
+
+std::vector<uint8_t> opening_as_glb(Bytes opening) {
+  LW_ASSERT(opening.size() >= glb_header_bytes + 2 * chunk_header_bytes);
+  const Bytes kept = opening.first(opening.size() - chunk_header_bytes);
+  ByteWriter glb;
+  glb.append(kept.first(8));
+  glb.u32(static_cast<uint32_t>(kept.size()));
+  glb.append(kept.subspan(glb_header_bytes));
+  return glb.release();
+}
+
+}  // namespace lightwell

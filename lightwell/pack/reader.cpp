@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/pack/reader.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "lightwell/base/crc32c.h"
+#include "lightwell/pack/content_hash.h"
+#include "lightwell/pack/opening.h"
+
+namespace lightwell {
+namespace {
+
+std::string name_of(size_t stream, const Extent& extent) {
+  return "stream " + std::to_string(stream) + ", " + (extent.page ? "table page at block " : "block ") +
+         std::to_string(extent.block);
+}
+
+/// Reads as much of the file's beginning as its headers ask for.
+Result<std::vector<uint8_t>> read_head(const FetchBytes& fetch, uint64_t file_length, OpeningSize& size) {
+  std::vector<uint8_t> head;
+  for (;;) {
+    LW_TRY(measured, measure_opening(head));
+    size = measured;
+    if (size.file_length > file_length) return fail("file", "is cut short");
+    if (size.complete && head.size() >= size.needed) break;
+    if (size.needed > file_length) return fail("file", "is cut short");
+    LW_TRY(more, fetch(head.size(), size.needed - head.size()));
+    head.insert(head.end(), more.begin(), more.end());
+  }
+  if (size.file_length != file_length) return fail("file", "is longer than its header says");
+  return head;
+}
+
+}  // namespace
+
+Result<PackReader> PackReader::open(FetchBytes fetch, uint64_t file_length) {
+  OpeningSize size;
+  LW_TRY(head, read_head(fetch, file_length, size));
+  const Bytes opening = Bytes(head).first(size.opening_length);
+  LW_TRY(directory, Directory::read(Bytes(head).subspan(opening.size()), file_length));
+  if (directory.opening_length != opening.size()) return fail("directory", "its length of the opening is wrong");
+  if (directory.opening_check != crc32c(opening)) return fail("opening", "its check is wrong");
+
+  PackReader reader;
+  reader.fetch_ = std::move(fetch);
+  reader.opening_ = opening_as_glb(opening);
+  for (const StreamEntry& entry : directory.streams)
+    reader.tables_.push_back(*BlockTable::place(entry, opening.size()));
+  reader.directory_ = std::move(directory);
+  for (size_t stream = 0; stream < reader.tables_.size(); stream++) {
+    BlockTable& table = reader.tables_[stream];
+    while (table.known() < table.extents()) {
+      LW_TRY(page, reader.payload(stream, table.known() - 1));
+      if (auto added = table.add_page(page); !added)
+        return fail("stream " + std::to_string(stream), added.error().message());
+    }
+  }
+  return reader;
+}
+
+Result<PackReader> PackReader::open_file(const std::string& path) {
+  std::error_code missing;
+  const uint64_t length = std::filesystem::file_size(path, missing);
+  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
+  if (missing || !*file) return fail(Error{path, "", "cannot be read"});
+  const FetchBytes fetch = [file](uint64_t first, uint64_t count) -> Result<std::vector<uint8_t>> {
+    std::vector<uint8_t> bytes(count);
+    file->clear();
+    file->seekg(static_cast<std::streamoff>(first));
+    file->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
+    if (!*file)
+      return fail("bytes " + std::to_string(first) + " to " + std::to_string(first + count), "cannot be read");
+    return bytes;
+  };
+  auto reader = open(fetch, length);
+  if (!reader) return fail(in_file(reader.error(), path));
+  return reader;
+}
+
+Result<std::vector<uint8_t>> PackReader::block(size_t stream, uint32_t index) const {
+  return payload(stream, index + index / rows_per_page);
+}
+
+Result<std::vector<uint8_t>> PackReader::payload(size_t stream, uint32_t index) const {
+  const Extent extent = tables_[stream].extent(index);
+  LW_TRY(bytes, fetch_(extent.begin, extent.length));
+  if (checked_payload(bytes, directory_.id).empty()) return fail(name_of(stream, extent), "its check is wrong");
+  bytes.resize(bytes.size() - block_check_bytes);
+  return std::move(bytes);
+}
+
+Result<void> PackReader::verify_id() const {
+  ContentHash hash;
+  constexpr size_t before_json = glb_header_bytes;
+  const size_t json_length = ByteReader(Bytes(opening_).subspan(before_json)).u32();
+  const Bytes behind_json = Bytes(opening_).subspan(before_json + chunk_header_bytes + json_length);
+  if (!behind_json.empty()) hash.update(behind_json.subspan(chunk_header_bytes));
+  for (size_t stream = 0; stream < tables_.size(); stream++) {
+    for (uint32_t i = 0; i < tables_[stream].extents(); i++) {
+      LW_TRY(bytes, payload(stream, i));
+      hash.update(bytes);
+    }
+  }
+  if (hash.finish() != directory_.id)
+    return fail("id", "is " + to_text(directory_.id) + ", but the content's is " + to_text(hash.finish()));
+  return {};
+}
+
+}  // namespace lightwell
