@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/mesh/stream.h"
+
+namespace lightwell {
+
+/// Where the arrays of a coarsest level lie in the opening, in bytes from the start of the BIN chunk's data: they are
+/// ordinary glTF accessors, tightly packed. Stands behind the MeshLayout in a mesh stream's parameters
+/// (docs/format.md).
+struct BasePlaces {
+  uint32_t positions = 0;               ///< 12 bytes a vertex
+  uint32_t normals = 0;                 ///< 12 bytes a vertex; 0 when absent, as are the next ones
+  std::array<uint32_t, 2> texcoords{};  ///< 8 bytes a vertex
+  uint32_t colors = 0;                  ///< 4 bytes a vertex
+  uint32_t indices = 0;
+  bool short_indices = false;  ///< 2 bytes an index, else 4
+
+  void write(ByteWriter& writer) const;
+  static Result<BasePlaces> read(ByteReader& reader);
+};
+
+/// The arrays themselves, copied out of the opening.
+struct BaseArrays {
+  std::vector<Vec3f> positions, normals;
+  std::array<std::vector<Vec2f>, 2> texcoords;
+  std::vector<Color8> colors;
+  std::vector<uint32_t> indices;
+
+  MeshArrays view() const { return {positions, normals, {texcoords[0], texcoords[1]}, colors, indices}; }
+
+  /// Reads the arrays that the layout asks for from the BIN chunk's data. Fails when a place lies outside of it.
+  static Result<BaseArrays> read(const MeshLayout& layout, const BasePlaces& places, Bytes bin);
+};
+
+}  // namespace lightwell
