@@ -8,23 +8,27 @@
 
 namespace lightwell {
 
-/// The nodes of a regular grid over an axis-parallel box: node (i, j, k) stands at lo + (i, j, k) * cell. At least two nodes
-/// an axis; nodes are numbered x fastest, z slowest.
+/// The nodes of a regular grid over an axis-parallel box: node (i, j, k) stands at lo + (i, j, k) * cell. At least two
+/// nodes an axis; nodes are numbered x fastest, z slowest.
 struct GridShape {
   Vec3f lo{};
   Vec3f cell = Vec3f::filled(1);  ///< distance between neighbours on each axis, metres
   Vec3i nodes{{2, 2, 2}};
 
-  size_t count() const { return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]); }
+  size_t count() const {
+    return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]);
+  }
   size_t index(Vec3i n) const {
-    return static_cast<size_t>(n[0]) + static_cast<size_t>(nodes[0]) * (static_cast<size_t>(n[1]) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(n[2]));
+    return static_cast<size_t>(n[0]) +
+           static_cast<size_t>(nodes[0]) *
+               (static_cast<size_t>(n[1]) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(n[2]));
   }
   Vec3i node(size_t index) const;
   Vec3f position(Vec3i n) const { return lo + cell * n.cast<float>(); }
   Vec3f hi() const { return position(nodes - Vec3i::filled(1)); }
 
-  /// The grid over `box` with `longest` nodes on its longest axis and max(2, round(size / longest size * (longest - 1)) + 1)
-  /// on the others. A flat box is thickened to a cell.
+  /// The grid over `box` with `longest` nodes on its longest axis and max(2, round(size / longest size * (longest - 1))
+  /// + 1) on the others. A flat box is thickened to a cell.
   static GridShape over(const Box3f& box, int longest);
 };
 
@@ -42,8 +46,8 @@ struct Moments {
     return a;
   }
 
-  /// Irradiance (W/m2, RGB) on a surface of unit normal n: half of F.n + sum M_a n_a^2 + sum S_ab n_a n_b, never negative.
-  /// Exact for normals along an axis, and for radiance of degree up to two. Differs from the papers: see
+  /// Irradiance (W/m2, RGB) on a surface of unit normal n: half of F.n + sum M_a n_a^2 + sum S_ab n_a n_b, never
+  /// negative. Exact for normals along an axis, and for radiance of degree up to two. Differs from the papers: see
   /// docs/decisions/002-moments.md.
   Vec3f irradiance(const Vec3f& n) const;
 };
@@ -51,13 +55,23 @@ struct Moments {
 /// The irradiance vector grid of S08 and R09, in moments, with the validity of its nodes.
 struct LightGrid {
   GridShape shape;
-  std::vector<Moments> moments;   ///< shape.count()
-  std::vector<uint8_t> valid;     ///< 1 where a node stands in free space, 0 inside a solid
-  float normal_offset = 0.5f;     ///< a lookup is moved by this many cells along the normal, light.md section 6
+  std::vector<Moments> moments;  ///< shape.count()
+  std::vector<uint8_t> valid;    ///< 1 where a node stands in free space, 0 inside a solid
+  float normal_offset = 0.5f;    ///< a lookup is moved by this many cells along the normal, light.md section 6
 
-  /// Irradiance (W/m2, RGB) at a point for a unit normal: trilinear among the eight nodes round point + normal_offset * cell *
-  /// normal, valid ones at full weight and invalid ones at 2^-13. Points outside are clamped to the grid.
+  /// Irradiance (W/m2, RGB) at a point for a unit normal: trilinear among the eight nodes round point + normal_offset *
+  /// cell * normal, valid ones at full weight and invalid ones at 2^-13. Points outside are clamped to the grid.
   Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const;
 };
+
+/// The weight of a node in lookups and averages: 1 when it is valid, 2^-13 when it is not. Small enough that a solid's
+/// inside never leaks, large enough for a half float, so that a lookup among invalid nodes alone still finds their
+/// filled values.
+constexpr float node_weight(bool valid) { return valid ? 1.0f : 0x1p-13f; }
+
+/// Gives invalid nodes the light of the free space around them (light.md section 6): E_d is the mean of the neighbours
+/// on the d side, weighted by cos^2 / distance^2, S that of all neighbours by 1 / distance^2. Nodes deep inside solids
+/// are filled from those filled before them. Valid nodes never change; a grid without any stays as it is.
+void fill_invalid(LightGrid& grid);
 
 }  // namespace lightwell

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/light/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightwell/base/assert.h"
+
+namespace lightwell {
+
+Vec3i GridShape::node(size_t index) const {
+  const auto nx = static_cast<size_t>(nodes[0]), ny = static_cast<size_t>(nodes[1]);
+  return {{static_cast<int>(index % nx), static_cast<int>(index / nx % ny), static_cast<int>(index / nx / ny)}};
+}
+
+GridShape GridShape::over(const Box3f& box, int longest) {
+  LW_ASSERT(longest >= 2);
+  GridShape shape;
+  if (box.empty()) return shape;
+  const Vec3f size = box.size();
+  const float extent = max_component(size) > 0 ? max_component(size) : 1.0f;
+  const float wanted = extent / static_cast<float>(longest - 1);
+  for (int a = 0; a < 3; a++) {
+    const bool flat = size[a] < 0.01f * wanted;
+    const float thickness = flat ? wanted : size[a];
+    shape.nodes[a] = std::max(2, static_cast<int>(std::floor(thickness / wanted + 0.5f)) + 1);
+    shape.cell[a] = thickness / static_cast<float>(shape.nodes[a] - 1);
+    shape.lo[a] = flat ? box.center()[a] - 0.5f * thickness : box.lo[a];
+  }
+  return shape;
+}
+
+Vec3f Moments::irradiance(const Vec3f& n) const {
+  Vec3f sum{};
+  for (int a = 0; a < 3; a++) {
+    const float square = n[a] * n[a];
+    sum += m[static_cast<size_t>(2 * a)] * (square + n[a]) + m[static_cast<size_t>(2 * a + 1)] * (square - n[a]);
+  }
+  sum += m[6] * (n[0] * n[1]) + m[7] * (n[0] * n[2]) + m[8] * (n[1] * n[2]);
+  return max(sum * 0.5f, Vec3f{});
+}
+
+Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& normal) const {
+  Vec3i first;
+  Vec3f fraction;
+  for (int a = 0; a < 3; a++) {
+    const float at = (point[a] - shape.lo[a]) / shape.cell[a] + normal_offset * normal[a];
+    const float inside = at > 0 ? std::min(at, static_cast<float>(shape.nodes[a] - 1)) : 0.0f;
+    first[a] = std::min(static_cast<int>(inside), shape.nodes[a] - 2);
+    fraction[a] = inside - static_cast<float>(first[a]);
+  }
+  Moments sum;
+  float total = 0;
+  for (int corner = 0; corner < 8; corner++) {
+    Vec3i n = first;
+    float weight = 1;
+    for (int a = 0; a < 3; a++) {
+      const bool upper = corner >> a & 1;
+      n[a] += upper;
+      weight *= upper ? fraction[a] : 1 - fraction[a];
+    }
+    const size_t node = shape.index(n);
+    weight *= node_weight(valid[node]);
+    sum += moments[node] * weight;
+    total += weight;
+  }
+  return (sum * (1 / total)).irradiance(normal);
+}
+
+namespace {
+
+// The means round an invalid node: nine moments, each with the weight that it has gathered.
+struct Surroundings {
+  Moments sum;       // what lies on the side that the moment looks at
+  Moments any_side;  // the fallback for a side where nothing is known
+  std::array<float, 6> weight{};
+  float total = 0;
+
+  void add(const Moments& neighbour, const Vec3f& towards) {
+    const float nearness = 1 / dot(towards, towards);
+    any_side += neighbour * nearness;
+    total += nearness;
+    for (size_t d = 0; d < 6; d++) {
+      const float along = (d % 2 == 0 ? 1.0f : -1.0f) * towards[static_cast<int>(d / 2)];
+      if (along <= 0) continue;
+      const float w = along * along * nearness * nearness;
+      sum.m[d] += neighbour.m[d] * w;
+      weight[d] += w;
+    }
+  }
+  Moments mean() const {
+    Moments result = any_side * (1 / total);
+    for (size_t d = 0; d < 6; d++) {
+      if (weight[d] > 0) result.m[d] = sum.m[d] / weight[d];
+    }
+    return result;
+  }
+};
+
+// Adds the filled ones of the 26 neighbours of a node.
+Surroundings look_around(const LightGrid& grid, const std::vector<uint8_t>& filled, size_t index) {
+  const Vec3i n = grid.shape.node(index);
+  Surroundings around;
+  for (int offset = 0; offset < 27; offset++) {
+    const Vec3i step{{offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1}};
+    const Vec3i other = n + step;
+    if (offset == 13 || min(other, Vec3i{}) != Vec3i{} ||
+        max(other, grid.shape.nodes - Vec3i::filled(1)) != grid.shape.nodes - Vec3i::filled(1))
+      continue;
+    const size_t neighbour = grid.shape.index(other);
+    if (filled[neighbour]) around.add(grid.moments[neighbour], grid.shape.cell * step.cast<float>());
+  }
+  return around;
+}
+
+}  // namespace
+
+void fill_invalid(LightGrid& grid) {
+  std::vector<uint8_t> filled = grid.valid;
+  std::vector<size_t> missing;
+  for (size_t i = 0; i < filled.size(); i++) {
+    if (!filled[i]) missing.push_back(i);
+  }
+  // Ring by ring inwards; within a ring nobody sees the others.
+  while (!missing.empty()) {
+    std::vector<size_t> later;
+    std::vector<std::pair<size_t, Moments>> ring;
+    for (const size_t i : missing) {
+      const Surroundings around = look_around(grid, filled, i);
+      if (around.total > 0)
+        ring.emplace_back(i, around.mean());
+      else
+        later.push_back(i);
+    }
+    if (ring.empty()) return;
+    for (const auto& [i, moments] : ring) {
+      grid.moments[i] = moments;
+      filled[i] = 1;
+    }
+    missing = std::move(later);
+  }
+}
+
+}  // namespace lightwell

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
+#include "lightwell/light/grid.h"
+#include "lightwell/light/record.h"
+#include "lightwell/light/stream_model.h"
+
+namespace lightwell {
+
+/// The codec number of what this header describes: records `moments` in the order of S08's slices.
+inline constexpr uint8_t light_codec_slices = 0;
+
+/// The parameters of a light stream (docs/format.md): all that is known before the first bundle.
+struct LightLayout {
+  GridShape shape;
+  float normal_offset = 0.5f;
+  float scale = 1;                         ///< records hold E times this power of two
+  uint64_t seed = 1;                       ///< of the random places
+  int nodes_per_slice = 8;                 ///< how many nodes of every slice a bundle brings
+  std::array<MomentsRecord, 8> corners{};  ///< nodes of the grid's corners, x fastest
+
+  static constexpr int most_nodes_an_axis = 256;
+  static constexpr size_t most_nodes = size_t(1) << 22;
+
+  void write(ByteWriter& writer) const;
+  /// Fails on numbers that no encoder writes, and on trailing bytes.
+  static Result<LightLayout> read(Bytes parameters);
+};
+
+/// Some nodes more: the payload of one block.
+struct LightBundle {
+  std::vector<uint8_t> payload;
+  uint32_t nodes = 0;
+  float error = 0;  ///< estimated RMS error of the nodes still missing after it, relative to the grid's RMS
+};
+
+struct LightStream {
+  LightLayout layout;
+  std::vector<LightBundle> bundles;
+};
+
+struct LightStreamOptions {
+  int bundle_nodes = 256;  ///< wanted size of a bundle, 64 ... 1024
+  uint64_t seed = 1;
+};
+
+/// The whole grid as a stream: the corners in the layout, then bundles with an equal number of nodes of every slice
+/// across the longest axis, at random places (S08). Shapes beyond LightLayout's limits are an error. Invalid nodes
+/// should have been filled.
+Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions& options = {});
+
+/// Receives a light stream. After open and after every append the known nodes of grid() are final and the others dark:
+/// push_pull fills a copy of them. Any bytes give a state or an error.
+class LightDecoder {
+ public:
+  static Result<LightDecoder> open(Bytes parameters);
+
+  const LightLayout& layout() const { return layout_; }
+  /// Decodes the payload of the next bundle. After an error the state is what it was before.
+  Result<void> append(Bytes payload);
+
+  /// Number of nodes known, of grid().shape.count().
+  size_t received() const { return 8 + at_; }
+  bool complete() const { return at_ == order_.nodes.size(); }
+  /// A byte a node: 1 where grid() holds the node.
+  std::span<const uint8_t> known() const { return records_.known(); }
+  /// The known nodes, irradiance in W/m2.
+  const LightGrid& grid() const { return grid_; }
+
+ private:
+  explicit LightDecoder(const LightLayout& layout);
+  void publish(size_t node);
+
+  LightLayout layout_;
+  LightOrder order_;
+  RecordField records_;
+  RecordCoder coder_;
+  LightGrid grid_;
+  size_t at_ = 0;      ///< nodes of order_ that have arrived
+  size_t bundle_ = 0;  ///< bundles that have arrived
+};
+
+}  // namespace lightwell

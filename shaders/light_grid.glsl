@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lightwell's light lookup. It stands in for three.js's chunk lightprobes_pars_fragment (0.187) with the same functions, so
+// that three.js's own grids look as before and Lightwell's are recognised beside them.
+//
+// A grid of Lightwell's stands anywhere in the world. The renderer hands three vectors of a grid to the shader and no more; for
+// Lightwell's they mean
+//   probesMin          world position of the first node
+//   probesMax          x, y, z of the unit quaternion that turns the grid into the world, the one with w >= 0
+//   probesResolution   size of the box of the nodes in the world: x negative when the world mirrors the grid, z always negated
+// which is what Matrix4.decompose gives for (the object's matrix times a translation to the grid's first node), the
+// scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
+// in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the form "patched" of the values.
+
+#if NUM_LIGHT_PROBE_GRIDS > 0
+
+uniform highp sampler3D probesSH[ NUM_LIGHT_PROBE_GRIDS ];
+
+uniform vec3 probesMin[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMax[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesResolution[ NUM_LIGHT_PROBE_GRIDS ];
+
+bool isLightwellGrid( vec3 probesResolution ) {
+
+	return probesResolution.z < 0.0;
+
+}
+
+// A world vector in the axes of a grid of Lightwell's: turned back by the quaternion q, not scaled.
+vec3 turnIntoGrid( vec3 v, vec3 q ) {
+
+	float w = sqrt( max( 0.0, 1.0 - dot( q, q ) ) );
+	return v + 2.0 * cross( q, cross( q, v ) - w * v );
+
+}
+
+// A world position as a fraction of the box of the nodes of a grid of Lightwell's.
+vec3 fractionOfGrid( vec3 worldPos, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
+
+	return turnIntoGrid( worldPos - probesMin, probesMax ) / ( probesResolution * vec3( 1.0, 1.0, - 1.0 ) );
+
+}
+
+bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
+
+	if ( isLightwellGrid( probesResolution ) ) {
+
+		// A thousandth more than the box, since the scene's outermost surfaces lie on it.
+		vec3 fraction = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution );
+		return all( lessThanEqual( abs( fraction - 0.5 ), vec3( 0.501 ) ) );
+
+	}
+
+	vec3 spacing = ( probesMax - probesMin ) / probesResolution;
+	vec3 samplePos = worldPos + worldNormal * spacing * 0.5;
+	vec3 margin = spacing * 0.01;
+	return all( greaterThanEqual( samplePos, probesMin - margin ) ) && all( lessThanEqual( samplePos, probesMax + margin ) );
+
+}
+
+// Where and how an atlas is read for one fragment.
+struct LightProbeLookup {
+	vec3 uvw;      // the place in a grid of one texel a probe
+	vec3 normal;   // in the axes of the coefficients
+	mat3 toGrid;   // world directions to these axes, up to length
+};
+
+LightProbeLookup lookupOfLightwell( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+
+	vec4 header = texelFetch( probesSH, ivec3( 0 ), 0 );
+	vec3 size = vec3( textureSize( probesSH, 0 ) );
+	vec3 nodes = vec3( size.xy, size.z / 7.0 - 2.0 );
+
+	// Surfaces of a stretched object keep the normals that they had unstretched: a normal is multiplied by the stretch, the
+	// ratio of the cells' sides in the world to those in the grid.
+	vec3 stretch = probesResolution * vec3( 1.0, 1.0, - 1.0 ) / ( ( nodes - 1.0 ) * header.rgb );
+
+	LightProbeLookup lookup;
+	lookup.toGrid = mat3(
+		stretch * turnIntoGrid( vec3( 1.0, 0.0, 0.0 ), probesMax ),
+		stretch * turnIntoGrid( vec3( 0.0, 1.0, 0.0 ), probesMax ),
+		stretch * turnIntoGrid( vec3( 0.0, 0.0, 1.0 ), probesMax )
+	);
+	lookup.normal = normalize( lookup.toGrid * worldNormal );
+
+	vec3 node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * ( nodes - 1.0 ) + header.a * lookup.normal;
+	lookup.uvw = ( clamp( node, vec3( 0.0 ), nodes - 1.0 ) + 0.5 ) / nodes;
+	return lookup;
+
+}
+
+LightProbeLookup lookupOfThree( vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+
+	vec3 gridRange = probesMax - probesMin;
+	vec3 samplePos = worldPos + worldNormal * gridRange / probesResolution * 0.5;
+
+	LightProbeLookup lookup;
+	lookup.toGrid = mat3( 1.0 );
+	lookup.normal = worldNormal;
+	lookup.uvw = clamp( ( samplePos - probesMin ) / gridRange, 0.5 / probesResolution, 1.0 - 0.5 / probesResolution );
+	return lookup;
+
+}
+
+// The light at the fragment for every direction. Kept from the irradiance to the reflection, which so costs no fetch more.
+struct LightProbeSample {
+	vec3 c[ 9 ];     // coefficients of the spherical harmonics
+	float weight;    // by which they are to be divided
+	mat3 toGrid;
+	bool reflects;   // whether metals take their reflection from here: in grids of Lightwell's
+};
+
+LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, mat3( 1.0 ), false );
+
+// Seven fetches, filtered by the hardware: the 28 channels of the seven sub-volumes stacked along z.
+void fetchLightProbes( highp sampler3D probesSH, vec3 uvw ) {
+
+	float depth = float( textureSize( probesSH, 0 ).z );
+	float paddedSlices = depth / 7.0;
+	vec3 at = vec3( uvw.xy, ( uvw.z * ( paddedSlices - 2.0 ) + 1.0 ) / depth );
+	vec3 next = vec3( 0.0, 0.0, 1.0 / 7.0 );
+
+	vec4 s0 = texture( probesSH, at );
+	vec4 s1 = texture( probesSH, at + next );
+	vec4 s2 = texture( probesSH, at + 2.0 * next );
+	vec4 s3 = texture( probesSH, at + 3.0 * next );
+	vec4 s4 = texture( probesSH, at + 4.0 * next );
+	vec4 s5 = texture( probesSH, at + 5.0 * next );
+	vec4 s6 = texture( probesSH, at + 6.0 * next );
+
+	lightProbeSample.c[ 0 ] = s0.xyz;
+	lightProbeSample.c[ 1 ] = vec3( s0.w, s1.xy );
+	lightProbeSample.c[ 2 ] = vec3( s1.zw, s2.x );
+	lightProbeSample.c[ 3 ] = s2.yzw;
+	lightProbeSample.c[ 4 ] = s3.xyz;
+	lightProbeSample.c[ 5 ] = vec3( s3.w, s4.xy );
+	lightProbeSample.c[ 6 ] = vec3( s4.zw, s5.x );
+	lightProbeSample.c[ 7 ] = s5.yzw;
+	lightProbeSample.c[ 8 ] = s6.xyz;
+	lightProbeSample.weight = s6.w;
+
+}
+
+// Irradiance of the sample for a unit normal in its axes.
+vec3 evaluateLightProbes( vec3 n ) {
+
+	vec3 result = lightProbeSample.c[ 0 ] * 0.886227;
+	result += lightProbeSample.c[ 1 ] * 2.0 * 0.511664 * n.y;
+	result += lightProbeSample.c[ 2 ] * 2.0 * 0.511664 * n.z;
+	result += lightProbeSample.c[ 3 ] * 2.0 * 0.511664 * n.x;
+	result += lightProbeSample.c[ 4 ] * 2.0 * 0.429043 * n.x * n.y;
+	result += lightProbeSample.c[ 5 ] * 2.0 * 0.429043 * n.y * n.z;
+	result += lightProbeSample.c[ 6 ] * ( 0.743125 * n.z * n.z - 0.247708 );
+	result += lightProbeSample.c[ 7 ] * 2.0 * 0.429043 * n.x * n.z;
+	result += lightProbeSample.c[ 8 ] * 0.429043 * ( n.x * n.x - n.y * n.y );
+	return max( result / lightProbeSample.weight, vec3( 0.0 ) );
+
+}
+
+vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+
+	bool ours = isLightwellGrid( probesResolution );
+	LightProbeLookup lookup;
+	if ( ours ) lookup = lookupOfLightwell( probesSH, probesMin, probesMax, probesResolution, worldPos, worldNormal );
+	else lookup = lookupOfThree( probesMin, probesMax, probesResolution, worldPos, worldNormal );
+
+	fetchLightProbes( probesSH, lookup.uvw );
+	if ( ! ours ) lightProbeSample.weight = 1.0;
+	lightProbeSample.toGrid = lookup.toGrid;
+	lightProbeSample.reflects = ours;
+	return evaluateLightProbes( lookup.normal );
+
+}
+
+// Radiance that a mirror would show in a world direction, for want of anything better the mean over the half-space around it:
+// E(direction) / pi. Zero where the irradiance did not come from a grid of Lightwell's.
+vec3 getLightProbeGridRadiance( vec3 worldDirection ) {
+
+	if ( ! lightProbeSample.reflects ) return vec3( 0.0 );
+	return evaluateLightProbes( normalize( lightProbeSample.toGrid * worldDirection ) ) / PI;
+
+}
+
+#endif
