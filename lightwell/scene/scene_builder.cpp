@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/scene/scene_builder.h"
+
+#include <algorithm>
+
+namespace lightwell {
+namespace {
+
+Json to_json(const Vec3f& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+int SceneBuilder::material(const Lambertian& material) {
+  const Vec3f& color = material.color;
+  Json json = {
+      {"name", material.name},
+      {"pbrMetallicRoughness",
+       {{"baseColorFactor", {color[0], color[1], color[2], 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+      {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}};
+  const float brightest = max_component(material.emission);
+  if (brightest > 0) json["emissiveFactor"] = to_json(material.emission / std::max(brightest, 1.0f));
+  if (brightest > 1) json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
+  if (material.double_sided) json["doubleSided"] = true;
+  return this->material(std::move(json));
+}
+
+int SceneBuilder::material(Json material) {
+  for (const auto& extension : member(material, "extensions").items()) use_extension(extension.key());
+  return builder_.add("materials", std::move(material));
+}
+
+int SceneBuilder::texture(const std::string& uri) {
+  const int image = builder_.add("images", {{"uri", uri}});
+  return builder_.add("textures", {{"source", image}});
+}
+
+void SceneBuilder::object(const std::string& name, const std::vector<Part>& parts) {
+  Json primitives = Json::array();
+  for (const Part& part : parts) {
+    Json primitive = builder_.primitive(part.mesh);
+    primitive["material"] = part.material;
+    primitives.push_back(std::move(primitive));
+  }
+  node({{"name", name}, {"mesh", builder_.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}})}});
+}
+
+void SceneBuilder::camera(const std::string& name, const Vec3d& eye, const Vec3d& target, double yfov, int width,
+                          int height) {
+  const Vec3d back = normalized(eye - target);
+  const Vec3d right = normalized(cross(Vec3d{{0, 1, 0}}, back));
+  const Vec3d up = cross(back, right);
+  const Json camera = {
+      {"name", name},
+      {"type", "perspective"},
+      {"perspective", {{"yfov", yfov}, {"aspectRatio", static_cast<double>(width) / height}, {"znear", 0.01}}},
+      {"extras", {{"width", width}, {"height", height}}}};
+  node({{"name", name},
+        {"camera", builder_.add("cameras", camera)},
+        {"matrix",
+         {right[0], right[1], right[2], 0, up[0], up[1], up[2], 0, back[0], back[1], back[2], 0, eye[0], eye[1], eye[2],
+          1}}});
+}
+
+void SceneBuilder::use_extension(const std::string& name) {
+  Json& used = document_.json["extensionsUsed"];
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
+void SceneBuilder::node(Json node) {
+  document_.json["scene"] = 0;
+  Json& scenes = document_.json["scenes"];
+  if (scenes.empty()) scenes.push_back({{"nodes", Json::array()}});
+  scenes[0]["nodes"].push_back(builder_.add("nodes", std::move(node)));
+}
+
+}  // namespace lightwell

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightwell/gltf/document.h"
+
+namespace lightwell {
+
+/// A glTF material that reflects the same radiance into all directions: metallic 0, roughness 1, no specular
+/// reflection.
+struct Lambertian {
+  std::string name;
+  Vec3f color = Vec3f::filled(0.8f);  ///< reflectance, linear, in [0, 1]
+  Vec3f emission{};                   ///< radiance of the front, W/m2/sr
+  bool double_sided = false;
+};
+
+/// Puts a glTF document together from meshes and materials, one node an object.
+class SceneBuilder {
+ public:
+  struct Part {
+    const Mesh& mesh;
+    int material;
+  };
+
+  SceneBuilder() = default;
+  SceneBuilder(const SceneBuilder&) = delete;
+  SceneBuilder& operator=(const SceneBuilder&) = delete;
+
+  int material(const Lambertian& material);
+  /// A material that is given as glTF has it; `extensions` inside are added to the document's list.
+  int material(Json material);
+  /// An image by its URI, relative to the document's folder, as a texture that repeats.
+  int texture(const std::string& uri);
+  /// A node with a mesh of these parts.
+  void object(const std::string& name, const std::vector<Part>& parts);
+  /// A perspective camera at `eye` that looks towards `target`, y up; yfov in radians, the picture's size in pixels.
+  void camera(const std::string& name, const Vec3d& eye, const Vec3d& target, double yfov, int width, int height);
+  Document release() { return std::move(document_); }
+
+ private:
+  void use_extension(const std::string& name);
+  void node(Json node);
+
+  Document document_;
+  DocumentBuilder builder_{document_};
+};
+
+}  // namespace lightwell
