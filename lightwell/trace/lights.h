@@ -19,7 +19,7 @@ struct Luminaire {
   int index = -1;  ///< lamp: into Scene::lamps; surface: into Scene::instances
   Vec3f power{};   ///< W; of suns and the environment what enters the sphere round the scene
   // Of a surface:
-  std::vector<uint32_t> faces;  ///< of the instance's mesh
+  std::vector<uint32_t> faces{};  ///< of the instance's mesh
   Vec3f center{};               ///< mean over the area
   Vec3f normal{};               ///< mean over the area, unit
   float area = 0;               ///< m2
@@ -34,7 +34,7 @@ class Lights {
 
   const std::vector<Luminaire>& luminaires() const { return luminaires_; }
   /// True when there is no light at all.
-  bool dark() const { return elements_.total() <= 0; }
+  bool dark() const { return choice_.total() <= 0; }
   /// Sum over all luminaires, W.
   Vec3f power() const;
 
@@ -67,44 +67,50 @@ class Lights {
   const EnvironmentLight& environment() const { return environment_; }
   /// The density with which sample() chooses a direction of the environment.
   float environment_density(const Vec3f& direction) const;
-  /// The environment's index among the luminaires; -1 when it is black.
-  int environment_luminaire() const { return environment_luminaire_; }
+  /// The environment's index among the luminaires; only when it is not black.
+  int environment_luminaire() const { return elements_[static_cast<size_t>(environment_element_)].luminaire; }
 
  private:
-  /// What the distribution chooses among: the lamps, the emissive triangles, the environment.
+  /// What the distribution chooses among: a lamp, a triangle that shines, or the environment.
   struct Element {
-    Luminaire::Kind kind;
-    int luminaire;
-    uint32_t face;  // of a surface
+    int luminaire = 0;
+    uint32_t instance = 0;  // of a triangle
+    uint32_t face = 0;
   };
   struct Triangle {
-    Vec3f corner, edge1, edge2, normal;
-    float area;
+    std::array<Vec3f, 3> corners;
+    Vec3f normal{};
+    float area = 0;
+
+    Vec3f at(Vec2f uv) const {
+      return corners[0] + (corners[1] - corners[0]) * uv[0] + (corners[2] - corners[0]) * uv[1];
+    }
   };
 
-  void add_lamps();
-  void add_surfaces();
-  void add_environment();
+  void add_lamp(int index);
   void add_surface(uint32_t instance);
-  Triangle triangle(const Element& element) const;
-  Vec3f emission_at(const Element& element, float u, float v) const;
+  void add_environment();
+  void add(Element element, const Vec3f& power);
+  Triangle triangle(uint32_t instance, uint32_t face) const;
+  Vec3f emission(const Element& element, Vec2f uv) const;
+  Vec3f mean_emission(uint32_t instance, uint32_t face) const;
   Emission emit_from_lamp(const Lamp& lamp, Random& random) const;
   Emission emit_from_surface(const Element& element, Random& random) const;
   Emission emit_from_environment(Random& random) const;
-  Emission emit_from_afar(const Vec3f& direction, Random& random) const;
+  Ray ray_from_afar(const Vec3f& direction, Random& random) const;
   Arrival sample_lamp(const Lamp& lamp, const Vec3f& point) const;
   Arrival sample_surface(const Element& element, const Vec3f& point, Random& random) const;
+  Arrival sample_environment(Random& random) const;
 
   const TraceScene& scene_;
-  Vec3f center_{};  // the sphere round the scene
+  Vec3f center_{};  // of the sphere round the scene
   float radius_ = 0;
   std::vector<Luminaire> luminaires_;
-  std::vector<Element> element_list_;
+  std::vector<Element> elements_;
   std::vector<float> weights_;
-  Distribution elements_;
-  std::vector<int> first_element_;  // of each instance, by face; -1: does not shine
+  Distribution choice_;
+  std::vector<int> first_element_;  // of each instance, its faces follow one another; -1: does not shine
   EnvironmentLight environment_;
-  int environment_luminaire_ = -1;
   int environment_element_ = -1;
 };
 

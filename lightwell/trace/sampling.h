@@ -48,8 +48,8 @@ class Distribution {
   /// The sum of the weights; when it is 0 there is nothing to sample.
   double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
   size_t size() const { return cumulative_.size(); }
-  /// The index for a uniform number in [0, 1). The total must not be 0.
-  size_t sample(float uniform) const;
+  /// An index; the total must not be 0. Draws 32 bits, so that large maps and meshes are sampled everywhere.
+  size_t sample(Random& random) const;
   /// The probability of an index.
   float probability(size_t index) const;
 

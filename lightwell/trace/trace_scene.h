@@ -8,6 +8,11 @@
 #include "lightwell/scene/scene.h"
 #include "lightwell/trace/material.h"
 
+struct RTCDeviceTy;
+struct RTCSceneTy;
+struct RTCGeometryTy;
+struct RTCFilterFunctionNArguments;
+
 namespace lightwell {
 
 class Lights;
@@ -37,40 +42,77 @@ struct Hit {
 class TraceScene {
  public:
   /// The scene must outlive the result and stay as it is. Fails when it has no triangle, or when memory runs out.
-  static Result<TraceScene> build(const Scene& scene);
+  static Result<std::unique_ptr<const TraceScene>> build(const Scene& scene);
   ~TraceScene();
-  TraceScene(TraceScene&&) noexcept;
-  TraceScene& operator=(TraceScene&&) noexcept;
+  TraceScene(const TraceScene&) = delete;
+  TraceScene& operator=(const TraceScene&) = delete;
 
-  const Scene& scene() const;
-  const Lights& lights() const;
+  const Scene& scene() const { return scene_; }
+  const Lights& lights() const { return *lights_; }
   /// Of what is traced.
-  const Box3f& bounds() const;
+  const Box3f& bounds() const { return bounds_; }
 
   /// The nearest surface. Where a surface lets part of the light pass (alpha, transmission), chance decides whether the
-  /// ray meets it: one number is drawn from `random` in scenes with such surfaces.
+  /// ray meets it: two numbers are drawn from `random` in scenes with such surfaces.
   bool intersect(const Ray& ray, Random& random, Hit& hit) const;
   /// True when something stops the ray before its end.
   bool occluded(const Ray& ray, Random& random) const;
 
   /// The material at a hit.
-  Surface surface(const Hit& hit) const;
-  /// The interpolated vertex normal, unit, on the side of the geometric one; that where the mesh has no normals. For
-  /// display: transport uses the geometric normal.
-  Vec3f shading_normal(const Hit& hit) const;
-  bool double_sided(const Hit& hit) const;
-  /// The corners of a face in scene space, counter-clockwise seen from the front.
-  std::array<Vec3f, 3> corners(uint32_t instance, uint32_t face) const;
+  Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v); }
+  /// The material at a point of a face; u and v are the weights of its second and third corner.
+  Surface surface(uint32_t instance, uint32_t face, float u, float v) const;
+  const Material& material(uint32_t instance) const { return *placed_[instance].material; }
+  /// False for deforming primitives, which are left out.
+  bool traced(uint32_t instance) const { return placed_[instance].mesh != nullptr; }
 
-  /// A point this far off a surface sees past it: 1e-5 of the largest coordinate or extent of the bounds.
-  float offset() const;
+  /// The radiance that a hit surface sends back along the ray: that of its front, of both sides when double-sided.
+  Vec3f emission(const Hit& hit, const Surface& surface) const;
+  /// The interpolated vertex normal, unit, turned to the side that the ray came from; the geometric one where the mesh
+  /// has no normals. For display: transport uses the geometric normal.
+  Vec3f shading_normal(const Hit& hit) const;
+
+  /// The corners of a face in scene space, in the mesh's order.
+  std::array<Vec3f, 3> corners(uint32_t instance, uint32_t face) const;
+  /// The unit normal of a face's front, given its corners.
+  Vec3f face_normal(uint32_t instance, const std::array<Vec3f, 3>& corners) const;
+
+  /// How far off a surface a ray starts so as not to meet it again, metres.
+  float offset() const { return offset_; }
   /// The origin of a ray that leaves a surface at `position` on the side of `normal`.
-  Vec3f leave(const Vec3f& position, const Vec3f& normal) const { return position + normal * offset(); }
+  Vec3f leave(const Vec3f& position, const Vec3f& normal) const { return position + normal * offset_; }
 
  private:
-  struct State;
-  explicit TraceScene(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  /// What a traced instance is made of.
+  struct Placed {
+    const Mesh* mesh = nullptr;
+    const Material* material = nullptr;
+    const float* scene_positions = nullptr;  // three a vertex; null when Embree places the instance
+    bool mirrored = false;
+    bool uniform = false;  // the material is the same everywhere: `surface`
+    Surface surface;
+  };
+  struct Context;
+
+  explicit TraceScene(const Scene& scene);
+  Result<void> commit();
+  void place(uint32_t instance);
+  RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene);
+  RTCSceneTy* shared_scene(int primitive, Placed& placed);
+  void mark_uniform(Placed& placed) const;
+  float coverage(uint32_t instance, uint32_t face, float u, float v) const;
+  static void filter(const RTCFilterFunctionNArguments* arguments);
+
+  const Scene& scene_;
+  RTCDeviceTy* device_ = nullptr;
+  RTCSceneTy* embree_ = nullptr;
+  std::vector<RTCSceneTy*> shared_;  // of each primitive that is placed by Embree
+  std::vector<int> uses_;            // instances of each primitive
+  std::vector<Placed> placed_;       // of each instance
+  Box3f bounds_;
+  float offset_ = 0;
+  bool lets_light_pass_ = false;
+  std::unique_ptr<const Lights> lights_;
 };
 
 }  // namespace lightwell

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/mesh/mesh.h"
+
+namespace lightwell {
+
+/// For each face the number of the connected piece of surface it belongs to, counted from 0 in the order of their first
+/// faces. Faces are connected by corners at the same position.
+std::vector<uint32_t> connected_faces(const Mesh& mesh);
+
+}  // namespace lightwell

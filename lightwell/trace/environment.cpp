@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/environment.h"
+
+namespace lightwell {
+namespace {
+
+constexpr float whole_sphere = 4 * pi;
+
+/// The cosine of the polar angle at the upper edge of a row.
+float cos_edge(int row, int height) { return std::cos(pi * static_cast<float>(row) / static_cast<float>(height)); }
+
+/// The solid angle of a pixel in a row of a latitude-longitude map.
+float solid_angle(int row, const RadianceImage& map) {
+  return 2 * pi / static_cast<float>(map.width) * (cos_edge(row, map.height) - cos_edge(row + 1, map.height));
+}
+
+Vec3f pixel_radiance(const RadianceImage& map, size_t pixel) {
+  const float* p = &map.pixels[3 * pixel];
+  return max(Vec3f{{p[0], p[1], p[2]}}, Vec3f{});
+}
+
+}  // namespace
+
+EnvironmentLight::EnvironmentLight(const Environment& environment) : scale_(environment.radiance) {
+  const RadianceImage* map = environment.map.get();
+  if (!map || map->width < 1 || map->height < 1) {
+    mean_ = scale_;
+    return;
+  }
+  map_ = map;
+  std::vector<float> weights(static_cast<size_t>(map->width) * static_cast<size_t>(map->height));
+  Vec3d sum{};
+  for (size_t i = 0; i < weights.size(); i++) {
+    const float angle = solid_angle(static_cast<int>(i / static_cast<size_t>(map->width)), *map);
+    const Vec3f flux = scale_ * pixel_radiance(*map, i) * angle;
+    weights[i] = (flux[0] + flux[1] + flux[2]) / 3;
+    sum += flux.cast<double>();
+  }
+  pixels_ = Distribution(weights);
+  mean_ = (sum / static_cast<double>(whole_sphere)).cast<float>();
+}
+
+Vec3f EnvironmentLight::radiance(const Vec3f& direction) const {
+  return map_ ? scale_ * pixel_radiance(*map_, pixel(direction)) : scale_;
+}
+
+Vec3f EnvironmentLight::sample(Random& random) const {
+  if (!map_) return sample_sphere(random);
+  const size_t chosen = pixels_.sample(random);
+  const size_t width = static_cast<size_t>(map_->width);
+  const int row = static_cast<int>(chosen / width);
+  const float share = random.uniform();
+  const float y = cos_edge(row, map_->height) * (1 - share) + cos_edge(row + 1, map_->height) * share;
+  const float u = (static_cast<float>(chosen % width) + random.uniform()) / static_cast<float>(width);
+  const float angle = 2 * pi * (u - 0.5f);
+  const float radius = std::sqrt(std::max(0.0f, 1 - y * y));
+  return {{radius * std::sin(angle), y, -radius * std::cos(angle)}};
+}
+
+float EnvironmentLight::density(const Vec3f& direction) const {
+  if (!map_) return 1 / whole_sphere;
+  const size_t index = pixel(direction);
+  const int row = static_cast<int>(index / static_cast<size_t>(map_->width));
+  return pixels_.probability(index) / solid_angle(row, *map_);
+}
+
+size_t EnvironmentLight::pixel(const Vec3f& d) const {
+  const float u = 0.5f + std::atan2(d[0], -d[2]) / (2 * pi);
+  const float v = std::acos(std::clamp(d[1], -1.0f, 1.0f)) / pi;
+  const int x = std::clamp(static_cast<int>(u * static_cast<float>(map_->width)), 0, map_->width - 1);
+  const int y = std::clamp(static_cast<int>(v * static_cast<float>(map_->height)), 0, map_->height - 1);
+  return static_cast<size_t>(y) * static_cast<size_t>(map_->width) + static_cast<size_t>(x);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/lights.h"
+
+#include "lightwell/trace/connected_faces.h"
+
+namespace lightwell {
+namespace {
+
+float mean(const Vec3f& c) { return (c[0] + c[1] + c[2]) / 3; }
+
+/// KHR_lights_punctual: how much of a spot's intensity is left at an angle, by its cosine to the axis.
+float cone(const Lamp& lamp, float cosine) {
+  if (lamp.kind != Lamp::Kind::spot) return 1;
+  const float inner = std::cos(lamp.inner_cone), outer = std::cos(lamp.outer_cone);
+  const float x = std::clamp((cosine - outer) / std::max(0.001f, inner - outer), 0.0f, 1.0f);
+  return x * x;
+}
+
+/// The solid angle of a spot's light, its fading edge counted by what is left there.
+float cone_solid_angle(const Lamp& lamp) {
+  const float outer = std::cos(lamp.outer_cone);
+  const float width = std::max(0.001f, std::cos(lamp.inner_cone) - outer);
+  const float full_from = std::min(1.0f, outer + width);
+  const float edge = full_from - outer;
+  return 2 * pi * (1 - full_from + edge * edge * edge / (3 * width * width));
+}
+
+/// KHR_lights_punctual: the window that ends a lamp's light at its range.
+float range_window(const Lamp& lamp, float distance) {
+  if (lamp.range <= 0) return 1;
+  const float x = distance / lamp.range;
+  return std::max(0.0f, 1 - x * x * x * x);
+}
+
+}  // namespace
+
+Lights::Lights(const TraceScene& scene)
+    : scene_(scene), first_element_(scene.scene().instances.size(), -1), environment_(scene.scene().environment) {
+  center_ = scene.bounds().center();
+  radius_ = length(scene.bounds().size()) / 2;
+  for (size_t i = 0; i < scene.scene().lamps.size(); i++) add_lamp(static_cast<int>(i));
+  for (uint32_t i = 0; i < first_element_.size(); i++) {
+    if (scene.traced(i) && max_component(scene.material(i).emission) > 0) add_surface(i);
+  }
+  if (!environment_.black()) add_environment();
+  choice_ = Distribution(weights_);
+  weights_ = {};
+}
+
+void Lights::add(Element element, const Vec3f& power) {
+  elements_.push_back(element);
+  weights_.push_back(mean(power));
+  luminaires_[static_cast<size_t>(element.luminaire)].power += power;
+}
+
+void Lights::add_lamp(int index) {
+  const Lamp& lamp = scene_.scene().lamps[static_cast<size_t>(index)];
+  luminaires_.push_back({.kind = Luminaire::Kind::lamp, .index = index});
+  const float spread = lamp.kind == Lamp::Kind::sun     ? pi * radius_ * radius_
+                       : lamp.kind == Lamp::Kind::point ? 4 * pi
+                                                        : cone_solid_angle(lamp);
+  add({.luminaire = static_cast<int>(luminaires_.size()) - 1}, lamp.intensity * spread);
+}
+
+void Lights::add_surface(uint32_t instance) {
+  const Mesh& mesh = scene_.scene().primitives[static_cast<size_t>(scene_.scene().instances[instance].primitive)].mesh;
+  const std::vector<uint32_t> pieces = connected_faces(mesh);
+  const bool double_sided = scene_.material(instance).double_sided;
+  const size_t first = luminaires_.size();
+  first_element_[instance] = static_cast<int>(elements_.size());
+  for (uint32_t face = 0; face < mesh.faces.size(); face++) {
+    const size_t luminaire = first + pieces[face];
+    if (luminaire >= luminaires_.size()) {
+      luminaires_.resize(luminaire + 1, {.kind = Luminaire::Kind::surface, .index = static_cast<int>(instance)});
+    }
+    const Triangle t = triangle(instance, face);
+    Luminaire& piece = luminaires_[luminaire];
+    piece.double_sided = double_sided;
+    piece.faces.push_back(face);
+    piece.center += (t.corners[0] + t.corners[1] + t.corners[2]) * (t.area / 3);
+    piece.normal += t.normal * t.area;
+    piece.area += t.area;
+    const float sides = double_sided ? 2.0f : 1.0f;
+    add({static_cast<int>(luminaire), instance, face}, mean_emission(instance, face) * (pi * t.area * sides));
+  }
+  for (size_t i = first; i < luminaires_.size(); i++) {
+    Luminaire& piece = luminaires_[i];
+    if (piece.area > 0) piece.center *= 1 / piece.area;
+    piece.normal = normalized(piece.normal);
+  }
+}
+
+void Lights::add_environment() {
+  environment_element_ = static_cast<int>(elements_.size());
+  luminaires_.push_back({.kind = Luminaire::Kind::environment});
+  const float sphere_area = 4 * pi * radius_ * radius_;
+  add({.luminaire = static_cast<int>(luminaires_.size()) - 1}, environment_.mean() * (pi * sphere_area));
+}
+
+Vec3f Lights::power() const {
+  Vec3f sum{};
+  for (const Luminaire& luminaire : luminaires_) sum += luminaire.power;
+  return sum;
+}
+
+Lights::Triangle Lights::triangle(uint32_t instance, uint32_t face) const {
+  Triangle t{.corners = scene_.corners(instance, face)};
+  t.normal = scene_.face_normal(instance, t.corners);
+  t.area = length(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0])) / 2;
+  return t;
+}
+
+Vec3f Lights::emission(const Element& element, Vec2f uv) const {
+  const Surface surface = scene_.surface(element.instance, element.face, uv[0], uv[1]);
+  return surface.emission * surface.coverage;
+}
+
+/// Over the face's area, by samples where there is a texture: good enough to choose by.
+Vec3f Lights::mean_emission(uint32_t instance, uint32_t face) const {
+  const Element element{.instance = instance, .face = face};
+  if (scene_.material(instance).emission_texture.image < 0) return emission(element, {{1.0f / 3, 1.0f / 3}});
+  constexpr int samples = 64;
+  Random random(instance, face);
+  Vec3f sum{};
+  for (int i = 0; i < samples; i++) sum += emission(element, sample_triangle(random));
+  return sum / samples;
+}
+
+Lights::Emission Lights::emit(Random& random) const {
+  const size_t chosen = choice_.sample(random);
+  const Element& element = elements_[chosen];
+  const Luminaire& luminaire = luminaires_[static_cast<size_t>(element.luminaire)];
+  Emission emission;
+  switch (luminaire.kind) {
+    case Luminaire::Kind::lamp:
+      emission = emit_from_lamp(scene_.scene().lamps[static_cast<size_t>(luminaire.index)], random);
+      break;
+    case Luminaire::Kind::surface: emission = emit_from_surface(element, random); break;
+    case Luminaire::Kind::environment: emission = emit_from_environment(random); break;
+  }
+  emission.flux *= 1 / choice_.probability(chosen);
+  emission.luminaire = element.luminaire;
+  return emission;
+}
+
+/// A ray that crosses the sphere round the scene in a direction, as a beam fills it.
+Ray Lights::ray_from_afar(const Vec3f& direction, Random& random) const {
+  return {.origin = center_ + (Frame(direction).to_world(sample_disc(random)) - direction) * radius_,
+          .direction = direction};
+}
+
+Lights::Emission Lights::emit_from_lamp(const Lamp& lamp, Random& random) const {
+  if (lamp.kind == Lamp::Kind::sun) {
+    return {.ray = ray_from_afar(lamp.direction, random), .flux = lamp.intensity * (pi * radius_ * radius_)};
+  }
+  Emission emission;
+  emission.ray.origin = lamp.position;
+  if (lamp.kind == Lamp::Kind::point) {
+    emission.ray.direction = sample_sphere(random);
+    emission.flux = lamp.intensity * (4 * pi);
+  } else {
+    const float outer = std::cos(lamp.outer_cone);
+    const float cosine = 1 - random.uniform() * (1 - outer);
+    const float angle = 2 * pi * random.uniform();
+    const float radius = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    emission.ray.direction =
+        Frame(lamp.direction).to_world({{radius * std::cos(angle), radius * std::sin(angle), cosine}});
+    emission.flux = lamp.intensity * (cone(lamp, cosine) * 2 * pi * (1 - outer));
+  }
+  // 1 - (distance / range)^4 of the photons get beyond a distance.
+  if (lamp.range > 0) emission.ray.far = lamp.range * std::sqrt(std::sqrt(1 - random.uniform()));
+  return emission;
+}
+
+Lights::Emission Lights::emit_from_surface(const Element& element, Random& random) const {
+  const Triangle t = triangle(element.instance, element.face);
+  const bool double_sided = scene_.material(element.instance).double_sided;
+  const Vec3f normal = double_sided && random.uniform() < 0.5f ? -t.normal : t.normal;
+  const Vec2f uv = sample_triangle(random);
+  Emission emission;
+  emission.ray.origin = scene_.leave(t.at(uv), normal);
+  emission.ray.direction = sample_cosine_hemisphere(normal, random);
+  emission.flux = this->emission(element, uv) * (pi * t.area * (double_sided ? 2.0f : 1.0f));
+  return emission;
+}
+
+Lights::Emission Lights::emit_from_environment(Random& random) const {
+  const Vec3f towards = environment_.sample(random);
+  Emission emission;
+  emission.ray = ray_from_afar(-towards, random);
+  emission.flux = environment_.radiance(towards) * (pi * radius_ * radius_ / environment_.density(towards));
+  return emission;
+}
+
+Lights::Arrival Lights::sample(const Vec3f& point, Random& random) const {
+  const size_t chosen = choice_.sample(random);
+  const Element& element = elements_[chosen];
+  const Luminaire& luminaire = luminaires_[static_cast<size_t>(element.luminaire)];
+  Arrival arrival;
+  switch (luminaire.kind) {
+    case Luminaire::Kind::lamp:
+      arrival = sample_lamp(scene_.scene().lamps[static_cast<size_t>(luminaire.index)], point);
+      break;
+    case Luminaire::Kind::surface: arrival = sample_surface(element, point, random); break;
+    case Luminaire::Kind::environment: arrival = sample_environment(random); break;
+  }
+  const float probability = choice_.probability(chosen);
+  arrival.radiance *= 1 / probability;
+  arrival.density *= probability;
+  arrival.luminaire = element.luminaire;
+  return arrival;
+}
+
+Lights::Arrival Lights::sample_lamp(const Lamp& lamp, const Vec3f& point) const {
+  Arrival arrival;
+  if (lamp.kind == Lamp::Kind::sun) {
+    arrival.direction = -lamp.direction;
+    arrival.distance = std::numeric_limits<float>::infinity();
+    arrival.radiance = lamp.intensity;
+    return arrival;
+  }
+  const Vec3f way = lamp.position - point;
+  arrival.distance = length(way);
+  if (arrival.distance <= 0) return arrival;
+  arrival.direction = way / arrival.distance;
+  const float left = cone(lamp, -dot(arrival.direction, lamp.direction)) * range_window(lamp, arrival.distance);
+  arrival.radiance = lamp.intensity * (left / (arrival.distance * arrival.distance));
+  return arrival;
+}
+
+Lights::Arrival Lights::sample_surface(const Element& element, const Vec3f& point, Random& random) const {
+  const Triangle t = triangle(element.instance, element.face);
+  const Vec2f uv = sample_triangle(random);
+  Arrival arrival;
+  const Vec3f way = t.at(uv) - point;
+  arrival.distance = length(way);
+  if (arrival.distance <= 0) return arrival;
+  arrival.direction = way / arrival.distance;
+  float cosine = -dot(arrival.direction, t.normal);
+  if (scene_.material(element.instance).double_sided) cosine = std::abs(cosine);
+  if (cosine <= 0) return arrival;
+  arrival.density = arrival.distance * arrival.distance / (cosine * t.area);
+  arrival.radiance = emission(element, uv) / arrival.density;
+  return arrival;
+}
+
+Lights::Arrival Lights::sample_environment(Random& random) const {
+  Arrival arrival;
+  arrival.direction = environment_.sample(random);
+  arrival.distance = std::numeric_limits<float>::infinity();
+  arrival.density = environment_.density(arrival.direction);
+  arrival.radiance = environment_.radiance(arrival.direction) / arrival.density;
+  return arrival;
+}
+
+float Lights::density(const Vec3f& point, const Hit& hit) const {
+  const int first = first_element_[hit.instance];
+  if (first < 0) return 0;
+  const Vec3f way = hit.position - point;
+  const float distance2 = dot(way, way);
+  const float cosine = std::abs(dot(way, hit.normal)) / std::sqrt(distance2);
+  const float area = triangle(hit.instance, hit.face).area;
+  if (!(cosine * area > 0)) return 0;
+  return choice_.probability(static_cast<size_t>(first) + hit.face) * distance2 / (cosine * area);
+}
+
+int Lights::luminaire(const Hit& hit) const {
+  const int first = first_element_[hit.instance];
+  return first < 0 ? -1 : elements_[static_cast<size_t>(first) + hit.face].luminaire;
+}
+
+float Lights::environment_density(const Vec3f& direction) const {
+  return choice_.probability(static_cast<size_t>(environment_element_)) * environment_.density(direction);
+}
+
+std::vector<uint8_t> grid_luminaires(const Lights& lights, int strongest) {
+  const std::vector<Luminaire>& all = lights.luminaires();
+  std::vector<size_t> by_power;
+  std::vector<uint8_t> contained(all.size(), 0);
+  for (size_t i = 0; i < all.size(); i++) {
+    if (all[i].kind == Luminaire::Kind::environment) {
+      contained[i] = 1;
+    } else {
+      by_power.push_back(i);
+    }
+  }
+  std::stable_sort(by_power.begin(), by_power.end(),
+                   [&](size_t a, size_t b) { return mean(all[a].power) > mean(all[b].power); });
+  for (size_t i = static_cast<size_t>(std::max(0, strongest)); i < by_power.size(); i++) contained[by_power[i]] = 1;
+  return contained;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/sampling.h"
+
+namespace lightwell {
+
+Frame::Frame(const Vec3f& normal) : z(normal) {
+  const float sign = std::copysign(1.0f, z[2]);
+  const float a = -1 / (sign + z[2]);
+  const float b = z[0] * z[1] * a;
+  x = {{1 + sign * z[0] * z[0] * a, sign * b, -sign * z[0]}};
+  y = {{b, sign + z[1] * z[1] * a, -z[1]}};
+}
+
+Vec3f sample_cosine_hemisphere(const Vec3f& normal, Random& random) {
+  const Vec3f disc = sample_disc(random);
+  const float height = std::sqrt(std::max(0.0f, 1 - dot(disc, disc)));
+  return normalized(Frame(normal).to_world({{disc[0], disc[1], height}}));
+}
+
+Vec3f sample_sphere(Random& random) {
+  const float z = 1 - 2 * random.uniform();
+  const float radius = std::sqrt(std::max(0.0f, 1 - z * z));
+  const float angle = 2 * pi * random.uniform();
+  return {{radius * std::cos(angle), radius * std::sin(angle), z}};
+}
+
+Vec3f sample_disc(Random& random) {
+  const float radius = std::sqrt(random.uniform());
+  const float angle = 2 * pi * random.uniform();
+  return {{radius * std::cos(angle), radius * std::sin(angle), 0}};
+}
+
+Vec2f sample_triangle(Random& random) {
+  const float root = std::sqrt(random.uniform());
+  const float share = random.uniform();
+  return {{root * (1 - share), root * share}};
+}
+
+Distribution::Distribution(const std::vector<float>& weights) {
+  cumulative_.reserve(weights.size());
+  double sum = 0;
+  for (const float weight : weights) cumulative_.push_back(sum += static_cast<double>(weight));
+}
+
+size_t Distribution::sample(Random& random) const {
+  const double target = random.bits() * 0x1p-32 * total();
+  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
+  return static_cast<size_t>(found - cumulative_.begin());
+}
+
+float Distribution::probability(size_t index) const {
+  const double below = index == 0 ? 0 : cumulative_[index - 1];
+  return static_cast<float>((cumulative_[index] - below) / total());
+}
+
+}  // namespace lightwell

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/scene/scene.h"
+
+namespace lightwell {
+
+/// The value of an sRGB code in linear light, IEC 61966-2-1.
+float srgb_to_linear(uint8_t code);
+
+/// The texture's RGBA at texture coordinates, bilinear between the texels' centres. With `srgb`, RGB is decoded to
+/// linear light before it is interpolated; alpha never is. White where there is no image. Grey images give three equal
+/// colours.
+Vec4f look_up(const TextureLookup& texture, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
+              bool srgb);
+
+}  // namespace lightwell

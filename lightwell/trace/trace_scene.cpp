@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/trace_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include "lightwell/base/assert.h"
+#include "lightwell/trace/lights.h"
+
+namespace lightwell {
+namespace {
+
+/// A primitive that would take more faces than this when it is copied for each of its instances is placed by Embree:
+/// one level of the tree more, which slows rays down but keeps forests in memory.
+constexpr size_t max_copied_faces = 1 << 20;
+
+RTCRay embree_ray(const Ray& ray) {
+  RTCRay r{};
+  r.org_x = ray.origin[0];
+  r.org_y = ray.origin[1];
+  r.org_z = ray.origin[2];
+  r.dir_x = ray.direction[0];
+  r.dir_y = ray.direction[1];
+  r.dir_z = ray.direction[2];
+  r.tfar = ray.far;
+  r.mask = ~0u;
+  return r;
+}
+
+Vec3f barycentric(const std::array<Vec3f, 3>& c, float u, float v) {
+  return c[0] + (c[1] - c[0]) * u + (c[2] - c[0]) * v;
+}
+
+template <typename T>
+T interpolated(const std::vector<T>& values, const Face& face, float u, float v) {
+  return values[face[0]] * (1 - u - v) + values[face[1]] * u + values[face[2]] * v;
+}
+
+}  // namespace
+
+/// A ray's own context: what chance it gave to surfaces that light passes.
+struct TraceScene::Context {
+  RTCIntersectContext embree;  // first, so that Embree's pointer to it is one to this
+  uint64_t salt = 0;
+
+  explicit Context(uint64_t ray_salt) : salt(ray_salt) { rtcInitIntersectContext(&embree); }
+};
+
+Result<std::unique_ptr<const TraceScene>> TraceScene::build(const Scene& scene) {
+  std::unique_ptr<TraceScene> traced(new TraceScene(scene));
+  LW_CHECK(traced->commit());
+  traced->lights_ = std::make_unique<const Lights>(*traced);
+  return traced;
+}
+
+TraceScene::TraceScene(const Scene& scene)
+    : scene_(scene),
+      shared_(scene.primitives.size()),
+      uses_(scene.primitives.size()),
+      placed_(scene.instances.size()) {}
+
+TraceScene::~TraceScene() {
+  for (RTCSceneTy* shared : shared_) {
+    if (shared) rtcReleaseScene(shared);
+  }
+  if (embree_) rtcReleaseScene(embree_);
+  if (device_) rtcReleaseDevice(device_);
+}
+
+Result<void> TraceScene::commit() {
+  device_ = rtcNewDevice(nullptr);
+  if (!device_) return fail("Embree", "cannot start");
+  embree_ = rtcNewScene(device_);
+  rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
+  for (const Instance& instance : scene_.instances) uses_[static_cast<size_t>(instance.primitive)]++;
+  for (uint32_t i = 0; i < placed_.size(); i++) place(i);
+  rtcCommitScene(embree_);
+  if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+    return fail("Embree", "not enough memory for the scene's triangles");
+
+  RTCBounds box;
+  rtcGetSceneBounds(embree_, &box);
+  bounds_ = {{{box.lower_x, box.lower_y, box.lower_z}}, {{box.upper_x, box.upper_y, box.upper_z}}};
+  if (bounds_.empty()) return fail("scene", "it has no triangles");
+  const float extent = max_component(bounds_.size());
+  const float farthest = max_component(max(-bounds_.lo, bounds_.hi));
+  offset_ = std::max(1e-5f * extent, 0x1p-21f * farthest);
+  return {};
+}
+
+void TraceScene::place(uint32_t index) {
+  const Instance& instance = scene_.instances[index];
+  const Primitive& primitive = scene_.primitives[static_cast<size_t>(instance.primitive)];
+  if (primitive.deforming || primitive.mesh.faces.empty()) return;
+  Placed& placed = placed_[index];
+  placed.mesh = &primitive.mesh;
+  placed.material = &scene_.material_of(primitive);
+  placed.mirrored = instance.to_scene.determinant() < 0;
+  mark_uniform(placed);
+  lets_light_pass_ |= lets_light_pass(*placed.material);
+
+  const size_t copies = static_cast<size_t>(uses_[static_cast<size_t>(instance.primitive)]);
+  RTCGeometry geometry;
+  if (copies == 1 || copies * primitive.mesh.faces.size() <= max_copied_faces) {
+    geometry = new_geometry(placed, &instance.to_scene);
+  } else {
+    geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, shared_scene(instance.primitive, placed));
+    std::array<float, 12> columns;
+    const Transform& t = instance.to_scene;
+    const std::array<Vec3d, 4> axes{t.x, t.y, t.z, t.t};
+    for (size_t i = 0; i < columns.size(); i++) columns[i] = static_cast<float>(axes[i / 3][static_cast<int>(i % 3)]);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+    rtcCommitGeometry(geometry);
+  }
+  rtcAttachGeometryByID(embree_, geometry, index);
+  rtcReleaseGeometry(geometry);
+}
+
+/// The triangles of an instance: in scene space with `to_scene`, else in the primitive's own.
+RTCGeometryTy* TraceScene::new_geometry(Placed& placed, const Transform* to_scene) {
+  const Mesh& mesh = *placed.mesh;
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                sizeof(Vec3f), mesh.positions.size()));
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.faces.data(), 0, sizeof(Face),
+                             mesh.faces.size());
+  if (positions) {
+    for (size_t i = 0; i < mesh.positions.size(); i++) {
+      const Vec3f p = to_scene ? to_scene->point(mesh.positions[i]) : mesh.positions[i];
+      for (size_t axis = 0; axis < 3; axis++) positions[3 * i + axis] = p.e[axis];
+    }
+  }
+  if (to_scene) placed.scene_positions = positions;
+  if (lets_light_pass(*placed.material)) {
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryIntersectFilterFunction(geometry, filter);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter);
+  }
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+RTCSceneTy* TraceScene::shared_scene(int primitive, Placed& placed) {
+  RTCSceneTy*& shared = shared_[static_cast<size_t>(primitive)];
+  if (shared) return shared;
+  shared = rtcNewScene(device_);
+  rtcSetSceneFlags(shared, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = new_geometry(placed, nullptr);
+  rtcAttachGeometry(shared, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(shared);
+  return shared;
+}
+
+void TraceScene::mark_uniform(Placed& placed) const {
+  const Material& m = *placed.material;
+  placed.uniform = placed.mesh->colors.empty() && m.base_color_texture.image < 0 && m.emission_texture.image < 0 &&
+                   m.metallic_roughness_texture.image < 0;
+  if (placed.uniform) placed.surface = surface_of(m, scene_.images, {}, Vec4f::filled(1));
+}
+
+bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
+  RTCRayHit r{};
+  r.ray = embree_ray(ray);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  Context context(lets_light_pass_ ? uint64_t(random.bits()) << 32 | random.bits() : 0);
+  rtcIntersect1(embree_, &context.embree, &r);
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+
+  hit.instance = r.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? r.hit.geomID : r.hit.instID[0];
+  hit.face = r.hit.primID;
+  hit.u = r.hit.u;
+  hit.v = r.hit.v;
+  hit.distance = r.ray.tfar;
+  const std::array<Vec3f, 3> c = corners(hit.instance, hit.face);
+  hit.position = barycentric(c, hit.u, hit.v);
+  hit.normal = face_normal(hit.instance, c);
+  if (dot(hit.normal, hit.normal) == 0) hit.normal = -ray.direction;  // a sliver without area
+  hit.front = dot(hit.normal, ray.direction) < 0;
+  return true;
+}
+
+bool TraceScene::occluded(const Ray& ray, Random& random) const {
+  RTCRay r = embree_ray(ray);
+  Context context(lets_light_pass_ ? uint64_t(random.bits()) << 32 | random.bits() : 0);
+  rtcOccluded1(embree_, &context.embree, &r);
+  return r.tfar < 0;
+}
+
+/// Called by Embree for each hit with a surface that light may pass: takes the hit back by the ray's chance. The chance
+/// depends on ray and face only, so that the order in which Embree finds the hits does not matter.
+void TraceScene::filter(const RTCFilterFunctionNArguments* arguments) {
+  LW_ASSERT(arguments->N == 1);
+  if (arguments->valid[0] == 0) return;
+  const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+  const auto& context = *reinterpret_cast<const Context*>(arguments->context);
+  const auto& scene = *static_cast<const TraceScene*>(arguments->geometryUserPtr);
+  const uint32_t instance = hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0];
+  const uint64_t key = hash64(context.salt ^ hash64(uint64_t(instance) << 32 | hit.primID));
+  const float chance = static_cast<float>(key >> 40) * 0x1p-24f;
+  if (chance >= scene.coverage(instance, hit.primID, hit.u, hit.v)) arguments->valid[0] = 0;
+}
+
+float TraceScene::coverage(uint32_t instance, uint32_t face, float u, float v) const {
+  return surface(instance, face, u, v).coverage;
+}
+
+Surface TraceScene::surface(uint32_t instance, uint32_t face, float u, float v) const {
+  const Placed& placed = placed_[instance];
+  if (placed.uniform) return placed.surface;
+  const Mesh& mesh = *placed.mesh;
+  const Face& f = mesh.faces[face];
+  std::array<Vec2f, 2> texcoords{};
+  for (size_t set = 0; set < texcoords.size(); set++) {
+    if (!mesh.texcoords[set].empty()) texcoords[set] = interpolated(mesh.texcoords[set], f, u, v);
+  }
+  const Vec4f color = mesh.colors.empty() ? Vec4f::filled(1) : interpolated(mesh.colors, f, u, v);
+  return surface_of(*placed.material, scene_.images, texcoords, color);
+}
+
+Vec3f TraceScene::emission(const Hit& hit, const Surface& surface) const {
+  return hit.front || material(hit.instance).double_sided ? surface.emission : Vec3f{};
+}
+
+Vec3f TraceScene::shading_normal(const Hit& hit) const {
+  const Placed& placed = placed_[hit.instance];
+  if (placed.mesh->normals.empty()) return hit.facing_normal();
+  const Vec3f local = interpolated(placed.mesh->normals, placed.mesh->faces[hit.face], hit.u, hit.v);
+  const Vec3f normal = scene_.instances[hit.instance].to_scene.normal(local);
+  if (dot(normal, normal) == 0) return hit.facing_normal();
+  return dot(normal, hit.facing_normal()) < 0 ? -normal : normal;
+}
+
+std::array<Vec3f, 3> TraceScene::corners(uint32_t instance, uint32_t face) const {
+  const Placed& placed = placed_[instance];
+  const Face& f = placed.mesh->faces[face];
+  std::array<Vec3f, 3> c;
+  for (size_t i = 0; i < 3; i++) {
+    if (placed.scene_positions) {
+      const float* p = placed.scene_positions + 3 * size_t(f[i]);
+      c[i] = {{p[0], p[1], p[2]}};
+    } else {
+      c[i] = scene_.instances[instance].to_scene.point(placed.mesh->positions[f[i]]);
+    }
+  }
+  return c;
+}
+
+Vec3f TraceScene::face_normal(uint32_t instance, const std::array<Vec3f, 3>& c) const {
+  const Vec3f normal = normalized(cross(c[1] - c[0], c[2] - c[0]));
+  return placed_[instance].mirrored ? -normal : normal;
+}
+
+}  // namespace lightwell
