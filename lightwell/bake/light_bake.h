@@ -13,7 +13,7 @@ struct LightBakeOptions {
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
   /// One flag a luminaire: its direct light goes into the grid as well. Empty: only indirect light. See
-  /// grid_luminaires().
+  /// plan_lamps().
   std::vector<uint8_t> contained;
 };
 

@@ -273,21 +273,4 @@ float Lights::environment_density(const Vec3f& direction) const {
   return choice_.probability(static_cast<size_t>(environment_element_)) * environment_.density(direction);
 }
 
-std::vector<uint8_t> grid_luminaires(const Lights& lights, int strongest) {
-  const std::vector<Luminaire>& all = lights.luminaires();
-  std::vector<size_t> by_power;
-  std::vector<uint8_t> contained(all.size(), 0);
-  for (size_t i = 0; i < all.size(); i++) {
-    if (all[i].kind == Luminaire::Kind::environment) {
-      contained[i] = 1;
-    } else {
-      by_power.push_back(i);
-    }
-  }
-  std::stable_sort(by_power.begin(), by_power.end(),
-                   [&](size_t a, size_t b) { return mean(all[a].power) > mean(all[b].power); });
-  for (size_t i = static_cast<size_t>(std::max(0, strongest)); i < by_power.size(); i++) contained[by_power[i]] = 1;
-  return contained;
-}
-
 }  // namespace lightwell

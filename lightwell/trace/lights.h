@@ -20,9 +20,9 @@ struct Luminaire {
   Vec3f power{};   ///< W; of suns and the environment what enters the sphere round the scene
   // Of a surface:
   std::vector<uint32_t> faces{};  ///< of the instance's mesh
-  Vec3f center{};               ///< mean over the area
-  Vec3f normal{};               ///< mean over the area, unit
-  float area = 0;               ///< m2
+  Vec3f center{};                 ///< mean over the area
+  Vec3f normal{};                 ///< mean over the area, unit
+  float area = 0;                 ///< m2
   bool double_sided = false;
 };
 
@@ -113,9 +113,5 @@ class Lights {
   EnvironmentLight environment_;
   int environment_element_ = -1;
 };
-
-/// Which luminaires a light grid holds with their direct light too, since a client cannot shadow them by itself: the
-/// environment and all lamps and surfaces beyond the `strongest` first by power. One flag a luminaire.
-std::vector<uint8_t> grid_luminaires(const Lights& lights, int strongest = 16);
 
 }  // namespace lightwell

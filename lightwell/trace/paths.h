@@ -21,7 +21,7 @@ struct Receiver {
 
 struct PathOptions {
   int max_bounces = 128;  ///< between the source and the receiver: 0 is direct light only
-  /// Luminaires whose direct light is counted apart, see grid_luminaires(); empty: none.
+  /// One flag a luminaire: its direct light is counted apart, as of those a light grid contains; empty: none.
   std::span<const uint8_t> apart;
 };
 
