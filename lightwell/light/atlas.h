@@ -51,6 +51,8 @@ struct LightAtlas {
 
  private:
   void write_header();
+  std::array<uint16_t, 28> channels_of(const Moments& moments, bool valid) const;
+
   Vec4f header_;
 };
 

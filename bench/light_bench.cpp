@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The light grid's costs: push-pull with and without smoothing, decoding, the size of the stream. Grids of 32^3 nodes
+// in the light of eight small lamps, with noise as a bake leaves it.
+#include <benchmark/benchmark.h>
+
+#include "lightwell/light/atlas.h"
+#include "lightwell/light/push_pull.h"
+#include "lightwell/light/stream.h"
+#include "tests/light/light_fields.h"
+
+namespace lightwell {
+namespace {
+
+LightGrid cube(int nodes, float noise) {
+  return lamp_grid(GridShape::over({{{0, 0, 0}}, {{4, 4, 4}}}, nodes), 3, noise);
+}
+
+// Argument: the fill, 1 push_pull, 2 push_pull_smooth. Half of the nodes are known, as in S08's Figure 2.
+void push_pull_half(benchmark::State& state) {
+  const LightGrid grid = cube(32, 0.03f);
+  Random random(1, 0);
+  std::vector<uint8_t> known(grid.valid.size());
+  for (uint8_t& k : known) k = random.below(2) != 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    LightGrid filled = grid;
+    state.ResumeTiming();
+    push_pull(filled, known, static_cast<Fill>(state.range(0)));
+    benchmark::DoNotOptimize(filled.moments.data());
+  }
+}
+BENCHMARK(push_pull_half)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+
+// Argument: noise in percent.
+void decode(benchmark::State& state) {
+  const LightGrid grid = cube(32, 0.01f * static_cast<float>(state.range(0)));
+  const LightStream stream = encode_light(grid).value();
+  ByteWriter parameters;
+  stream.layout.write(parameters);
+  size_t bytes = parameters.size();
+  for (const LightBundle& bundle : stream.bundles) bytes += bundle.payload.size();
+  for (auto _ : state) {
+    LightDecoder decoder = LightDecoder::open(parameters.bytes()).value();
+    for (const LightBundle& bundle : stream.bundles) benchmark::DoNotOptimize(decoder.append(bundle.payload));
+  }
+  const auto nodes = static_cast<double>(grid.moments.size());
+  state.counters["bytes_a_node"] = static_cast<double>(bytes) / nodes;
+  state.counters["seconds_a_node"] =
+      benchmark::Counter(nodes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(decode)->Arg(0)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
+
+void write_atlas(benchmark::State& state) {
+  const LightGrid grid = cube(32, 0);
+  LightAtlas atlas(grid.shape, AtlasForm::patched, grid.normal_offset, light_scale(grid));
+  for (auto _ : state) {
+    atlas.update(grid);
+    benchmark::DoNotOptimize(atlas.halves.data());
+  }
+}
+BENCHMARK(write_atlas)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lightwell
+
+BENCHMARK_MAIN();

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "lightwell/base/assert.h"
+#include "lightwell/light/stream.h"
+
+namespace lightwell {
+namespace {
+
+// Writes what the shared code of RecordCoder describes.
+struct Writer {
+  RangeEncoder encoder;
+
+  bool bit(AdaptiveBit& context, bool value) {
+    encoder.bit(context, value);
+    return value;
+  }
+  int integer(AdaptiveInteger& context, int value) {
+    context.encode(encoder, value);
+    return value;
+  }
+};
+
+// Sums of squares of E over the valid nodes of a bundle, in units of 2^-24: of the values and of the expectation's
+// errors.
+struct Squares {
+  double value = 0;
+  double error = 0;
+
+  void add(const MomentsRecord& record, const RecordExpectation& expected) {
+    for (size_t d = 0; d < 6; d++) {
+      const SharedExponent actual = SharedExponent::of(record.irradiance[d]);
+      for (size_t c = 0; c < 3; c++) {
+        const auto truth = static_cast<double>(int64_t(actual.mantissa[c]) << actual.exponent);
+        const double difference = truth - static_cast<double>(expected.irradiance[d][c]);
+        value += truth * truth;
+        error += difference * difference;
+      }
+    }
+  }
+};
+
+// A bundle is a random sample of what was missing before it: how badly its nodes were expected tells the error that
+// remained. Never more than after the bundle before.
+void estimate_errors(std::vector<LightBundle>& bundles, const std::vector<Squares>& squares) {
+  double value = 0, missing = 0;
+  for (const Squares& s : squares) value += s.value;
+  for (const LightBundle& b : bundles) missing += b.nodes;
+  float bound = 1;
+  for (size_t k = 0; k + 1 < bundles.size(); k++) {
+    missing -= bundles[k].nodes;
+    const double error = squares[k + 1].error * missing / bundles[k + 1].nodes;
+    if (value > 0) bound = std::min(bound, static_cast<float>(std::sqrt(error / value)));
+    bundles[k].error = bound;
+  }
+}
+
+Result<void> check_shape(const LightGrid& grid) {
+  for (const int n : grid.shape.nodes.e) {
+    if (n < 2 || n > LightLayout::most_nodes_an_axis)
+      return fail("light grid", "an axis has " + std::to_string(n) + " nodes, not 2 to " +
+                                    std::to_string(LightLayout::most_nodes_an_axis));
+  }
+  if (grid.shape.count() > LightLayout::most_nodes)
+    return fail("light grid", "more than " + std::to_string(LightLayout::most_nodes) + " nodes");
+  LW_ASSERT(grid.moments.size() == grid.shape.count() && grid.valid.size() == grid.shape.count());
+  return {};
+}
+
+}  // namespace
+
+void LightLayout::write(ByteWriter& writer) const {
+  for (const float v : shape.lo.e) writer.f32(v);
+  for (const float v : shape.cell.e) writer.f32(v);
+  for (const int n : shape.nodes.e) writer.u16(static_cast<uint16_t>(n));
+  writer.u16(static_cast<uint16_t>(nodes_per_slice));
+  writer.f32(normal_offset);
+  writer.f32(scale);
+  writer.u64(seed);
+  for (const MomentsRecord& corner : corners) corner.write(writer);
+}
+
+Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions& options) {
+  LW_CHECK(check_shape(grid));
+  LW_ASSERT(options.bundle_nodes >= 64 && options.bundle_nodes <= 1024);
+  LightStream stream;
+  LightLayout& layout = stream.layout;
+  layout.shape = grid.shape;
+  layout.normal_offset = grid.normal_offset;
+  layout.scale = light_scale(grid);
+  layout.seed = options.seed;
+  const int slices = *std::max_element(grid.shape.nodes.e.begin(), grid.shape.nodes.e.end());
+  layout.nodes_per_slice = std::max(1, options.bundle_nodes / slices);
+
+  const auto record_of = [&](size_t node) {
+    return encode_record(grid.moments[node] * layout.scale, grid.valid[node]);
+  };
+  RecordField field(grid.shape);
+  const std::array<size_t, 8> corners = corner_nodes(grid.shape);
+  for (size_t i = 0; i < 8; i++) field.set(corners[i], layout.corners[i] = record_of(corners[i]));
+
+  const LightOrder order = light_order(grid.shape, layout.seed, layout.nodes_per_slice);
+  RecordCoder coder;
+  std::vector<Squares> squares;
+  uint32_t at = 0;
+  for (const uint32_t end : order.ends) {
+    Writer writer;
+    LightBundle bundle{.payload = {}, .nodes = end - at};
+    Squares& sums = squares.emplace_back();
+    for (; at < end; at++) {
+      const size_t node = order.nodes[at];
+      MomentsRecord record = record_of(node);
+      if (record.valid()) sums.add(record, field.expect(field.neighbours(node), true));
+      coder.code(writer, record, field, node);
+      field.set(node, record);
+    }
+    bundle.payload = writer.encoder.finish();
+    stream.bundles.push_back(std::move(bundle));
+  }
+  estimate_errors(stream.bundles, squares);
+  return stream;
+}
+
+}  // namespace lightwell
