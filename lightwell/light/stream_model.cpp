@@ -98,8 +98,8 @@ KnownNeighbours RecordField::neighbours(size_t node) const {
           if (n[0] < 0 || found.count == found.items.size()) continue;
           const size_t other = shape_.index(n);
           if (!known_[other]) continue;
-          const Vec3i offset = n - center;
-          found.items[found.count++] = {static_cast<uint32_t>(other), std::max(1, 64 / dot(offset, offset))};
+          const int distance = dot(n - center, n - center);  // squared
+          found.items[found.count++] = {static_cast<uint32_t>(other), std::max(1, 256 / (distance * distance))};
         }
       }
     }

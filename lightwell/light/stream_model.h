@@ -38,7 +38,7 @@ struct RecordExpectation {
   std::array<int, 9> shear{};
 };
 
-/// The known nodes nearest to a place, each with an integer weight falling with the square of the distance.
+/// The known nodes nearest to a place, each with an integer weight falling with the fourth power of the distance.
 struct KnownNeighbours {
   struct Neighbour {
     uint32_t node;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lightwell/base/half.h"
+#include "lightwell/light/atlas.h"
+
+namespace lightwell {
+
+/// What a GPU does with an atlas: the formula of three.js's chunk lightprobes_pars_fragment (0.187), and the additions
+/// of shaders/light_grid.glsl, in plain arithmetic.
+class AtlasLookup {
+ public:
+  explicit AtlasLookup(const LightAtlas& atlas) : atlas_(atlas) {}
+
+  Vec4f texel(int x, int y, int slice) const {
+    const size_t at = 4 * (static_cast<size_t>(x) + static_cast<size_t>(atlas_.width()) *
+                                                        (static_cast<size_t>(y) + static_cast<size_t>(atlas_.height()) *
+                                                                                      static_cast<size_t>(slice)));
+    Vec4f v;
+    for (int lane = 0; lane < 4; lane++) v[lane] = from_half(atlas_.halves[at + static_cast<size_t>(lane)]);
+    return v;
+  }
+
+  /// A linear filter, clamped to the edge.
+  Vec4f texture(Vec3f uvw) const {
+    const Vec3i size{{atlas_.width(), atlas_.height(), atlas_.depth()}};
+    Vec3i first;
+    Vec3f fraction;
+    for (int a = 0; a < 3; a++) {
+      const float at = uvw[a] * static_cast<float>(size[a]) - 0.5f;
+      first[a] = static_cast<int>(std::floor(at));
+      fraction[a] = at - static_cast<float>(first[a]);
+    }
+    Vec4f sum{};
+    for (int corner = 0; corner < 8; corner++) {
+      float weight = 1;
+      Vec3i n;
+      for (int a = 0; a < 3; a++) {
+        const bool upper = corner >> a & 1;
+        n[a] = std::clamp(first[a] + upper, 0, size[a] - 1);
+        weight *= upper ? fraction[a] : 1 - fraction[a];
+      }
+      sum += texel(n[0], n[1], n[2]) * weight;
+    }
+    return sum;
+  }
+
+  /// Irradiance at a place given in nodes (0 ... nodes - 1), for a lookup already moved along the normal.
+  Vec3f irradiance(const Vec3f& node, const Vec3f& n) const {
+    const Vec3f count = atlas_.nodes.cast<float>();
+    const Vec3f at = max(Vec3f{}, min(node, count - Vec3f::filled(1)));
+    const float padded = count[2] + 2;
+    std::array<float, 28> channels;
+    for (int t = 0; t < 7; t++) {
+      const float w = (at[2] + 0.5f + 1 + static_cast<float>(t) * padded) / (7 * padded);
+      const Vec4f value = texture({{(at[0] + 0.5f) / count[0], (at[1] + 0.5f) / count[1], w}});
+      for (int lane = 0; lane < 4; lane++) channels[static_cast<size_t>(4 * t + lane)] = value[lane];
+    }
+    const std::array<float, 9> basis{0.886227f,
+                                     2 * 0.511664f * n[1],
+                                     2 * 0.511664f * n[2],
+                                     2 * 0.511664f * n[0],
+                                     2 * 0.429043f * n[0] * n[1],
+                                     2 * 0.429043f * n[1] * n[2],
+                                     0.743125f * n[2] * n[2] - 0.247708f,
+                                     2 * 0.429043f * n[0] * n[2],
+                                     0.429043f * (n[0] * n[0] - n[1] * n[1])};
+    Vec3f sum{};
+    for (size_t k = 0; k < 9; k++) sum += Vec3f{{channels[3 * k], channels[3 * k + 1], channels[3 * k + 2]}} * basis[k];
+    return max(sum / channels[27], Vec3f{});
+  }
+
+ private:
+  const LightAtlas& atlas_;
+};
+
+/// A grid somewhere in the world: turned by a quaternion, stretched, then moved; as the uniforms that light_grid.glsl
+/// reads.
+struct GridPlacement {
+  Vec3f position;    ///< of the grid's own origin
+  Vec4f quaternion;  ///< x, y, z, w
+  Vec3f stretch;
+
+  Vec3f turned(const Vec3f& v) const {
+    const Vec3f q{{quaternion[0], quaternion[1], quaternion[2]}};
+    return v + cross(q, cross(q, v) + v * quaternion[3]) * 2.0f;
+  }
+  Vec3f point(const Vec3f& p) const { return turned(p * stretch) + position; }
+  Vec3f normal(const Vec3f& n) const { return normalized(turned(n / stretch)); }
+
+  Vec3f uniform_min(const GridShape& shape) const { return point(shape.lo); }
+  Vec3f uniform_max() const {
+    return Vec3f{{quaternion[0], quaternion[1], quaternion[2]}} * (quaternion[3] < 0 ? -1.0f : 1.0f);
+  }
+  Vec3f uniform_resolution(const GridShape& shape) const {
+    return stretch * (shape.hi() - shape.lo) * Vec3f{{1, 1, -1}};
+  }
+};
+
+/// light_grid.glsl's path from a world point to the lookup, line by line.
+inline Vec3f shader_irradiance(const LightAtlas& atlas, const Vec3f& uniform_min, const Vec3f& uniform_max,
+                               const Vec3f& uniform_resolution, const Vec3f& point, const Vec3f& normal) {
+  const AtlasLookup lookup(atlas);
+  const Vec3f size = uniform_resolution * Vec3f{{1, 1, -1}};
+  const float w = std::sqrt(std::max(0.0f, 1 - dot(uniform_max, uniform_max)));
+  const auto turn = [&](const Vec3f& v) { return v + cross(uniform_max, cross(uniform_max, v) - v * w) * 2.0f; };
+  const Vec4f header = lookup.texel(0, 0, 0);
+  const Vec3f cells = atlas.nodes.cast<float>() - Vec3f::filled(1);
+  const Vec3f stretch = size / (cells * Vec3f{{header[0], header[1], header[2]}});
+  const Vec3f n = normalized(stretch * turn(normal));
+  return lookup.irradiance(turn(point - uniform_min) / size * cells + n * header[3], n);
+}
+
+}  // namespace lightwell

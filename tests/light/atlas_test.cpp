@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/light/atlas.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "lightwell/light/record.h"
+#include "tests/light/atlas_lookup.h"
+#include "tests/light/light_fields.h"
+
+namespace lightwell {
+namespace {
+
+// Coefficients are rounded to halves (2^-11 each); a sum of nine that partly cancel errs by a few times that of the
+// largest.
+constexpr float half_rounding = 4 * 0x1p-11f;
+
+float largest_irradiance(const LightGrid& grid) { return 1024 / light_scale(grid); }
+
+// A grid with solids, filled as a baker leaves it.
+LightGrid some_grid(uint64_t seed) {
+  Random random(seed, 9);
+  LightGrid grid = lamp_grid(random_shape(random, 6), seed, 0, true);
+  grid.normal_offset = 0.5f;
+  fill_invalid(grid);
+  return grid;
+}
+
+Vec3f somewhere(Random& random, const GridShape& shape) {
+  return shape.lo + (shape.hi() - shape.lo) * (random_colour(random) * 1.2f - Vec3f::filled(0.1f));
+}
+
+TEST(SphericalHarmonics, AreTheMomentsExactly) {
+  Random random(1, 0);
+  for (int i = 0; i < 200; i++) {
+    const Moments m = uniform_light(random_colour(random)) * 0.1f;
+    Moments lit = m;
+    lit += parallel_light(random_direction(random), random_colour(random));
+    LightAtlas atlas(GridShape{}, AtlasForm::plain, 0, 1);
+    atlas.update(LightGrid{GridShape{}, std::vector<Moments>(8, lit), std::vector<uint8_t>(8, 1), 0});
+    const Vec3f n = random_direction(random);
+    const Vec3f a = AtlasLookup(atlas).irradiance({}, n), b = lit.irradiance(n);
+    for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], half_rounding);
+  }
+}
+
+TEST(LightAtlas, LooksUpWhatTheGridDoes) {
+  for (uint64_t seed = 0; seed < 20; seed++) {
+    const LightGrid grid = some_grid(seed);
+    LightAtlas atlas(grid.shape, AtlasForm::patched, grid.normal_offset, light_scale(grid));
+    atlas.update(grid);
+    EXPECT_EQ(atlas.halves.size(), static_cast<size_t>(atlas.width() * atlas.height() * atlas.depth() * 4));
+    Random random(seed, 1);
+    for (int i = 0; i < 100; i++) {
+      const Vec3f p = somewhere(random, grid.shape), n = random_direction(random);
+      const Vec3f node = (p - grid.shape.lo) / grid.shape.cell + n * grid.normal_offset;
+      const Vec3f a = AtlasLookup(atlas).irradiance(node, n), b = grid.irradiance(p, n);
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], half_rounding * largest_irradiance(grid));
+    }
+  }
+}
+
+// Any turn, stretch, mirror and move of the grid: the world's points and normals find the light of the grid's own.
+TEST(LightAtlas, FollowsItsObject) {
+  for (uint64_t seed = 0; seed < 20; seed++) {
+    const LightGrid grid = some_grid(seed);
+    LightAtlas atlas(grid.shape, AtlasForm::patched, grid.normal_offset, light_scale(grid));
+    atlas.update(grid);
+    Random random(seed, 2);
+    const Vec3f axis = random_direction(random);
+    const float angle = 6 * random.uniform() - 3;
+    GridPlacement placement{random_colour(random) * 20, {}, random_colour(random) * 3.0f + Vec3f::filled(0.2f)};
+    if (seed % 2 == 1) placement.stretch[0] *= -1;
+    for (int a = 0; a < 3; a++) placement.quaternion[a] = std::sin(angle) * axis[a];
+    placement.quaternion[3] = std::cos(angle);
+    for (int i = 0; i < 100; i++) {
+      const Vec3f p = somewhere(random, grid.shape), n = random_direction(random);
+      const Vec3f a =
+          shader_irradiance(atlas, placement.uniform_min(grid.shape), placement.uniform_max(),
+                            placement.uniform_resolution(grid.shape), placement.point(p), placement.normal(n));
+      const Vec3f b = grid.irradiance(p, n);
+      // The cells' ratio is a half float as well: it turns normals by up to 2^-11.
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], 2 * half_rounding * largest_irradiance(grid));
+    }
+  }
+}
+
+// three.js's own lookup divides by nothing: one is what it must find there.
+TEST(LightAtlas, PlainFormIsThreesOwn) {
+  const LightGrid grid = some_grid(3);
+  LightAtlas atlas(grid.shape, AtlasForm::plain, grid.normal_offset, light_scale(grid));
+  atlas.update(grid);
+  const std::array<Vec3f, 9> c = spherical_harmonics(grid.moments[0]);
+  for (int slice : {0, 1}) {
+    EXPECT_EQ(AtlasLookup(atlas).texel(0, 0, slice)[0], from_half(to_half(c[0][0])));
+    EXPECT_EQ(AtlasLookup(atlas).texel(0, 0, slice)[3], from_half(to_half(c[1][0])));
+  }
+  const int last = 6 * (grid.shape.nodes[2] + 2);
+  for (int slice = last; slice < atlas.depth(); slice++) EXPECT_EQ(AtlasLookup(atlas).texel(1, 1, slice)[3], 1);
+}
+
+// Updating band by band gives the atlas of the whole, and nothing outside the named pieces changes.
+TEST(LightAtlas, UpdatesBandByBand) {
+  const LightGrid grid = some_grid(4);
+  for (const AtlasForm form : {AtlasForm::plain, AtlasForm::patched}) {
+    LightAtlas whole(grid.shape, form, grid.normal_offset, light_scale(grid));
+    LightAtlas bands = whole;
+    whole.update(grid);
+    for (int z = 0; z < grid.shape.nodes[2]; z++) {
+      for (int y = 0; y < grid.shape.nodes[1]; y++) {
+        const std::vector<uint16_t> before = bands.halves;
+        std::vector<uint8_t> named(before.size(), 0);
+        const auto pieces = bands.update(grid, y, 1, z);
+        const bool edge = z == 0 || z == grid.shape.nodes[2] - 1;
+        EXPECT_EQ(pieces.size(), edge ? 14u : 7u);
+        for (const LightAtlas::Rows& piece : pieces) {
+          const size_t row = static_cast<size_t>(bands.width()) * 4;
+          EXPECT_EQ(piece.first_half, (static_cast<size_t>(piece.slice) * static_cast<size_t>(bands.height()) +
+                                       static_cast<size_t>(piece.y)) *
+                                          row);
+          std::fill_n(named.begin() + static_cast<ptrdiff_t>(piece.first_half), row * static_cast<size_t>(piece.rows),
+                      uint8_t(1));
+        }
+        for (size_t i = 0; i < before.size(); i++) {
+          if (!named[i]) {
+            ASSERT_EQ(bands.halves[i], before[i]);
+          }
+        }
+      }
+    }
+    EXPECT_EQ(bands.halves, whole.halves);
+  }
+}
+
+// tests/data/light/lookup.json is what the page's shader is tested against in a browser: an atlas, placements as
+// uniforms, world points and normals, and the irradiance that they must give. LIGHTWELL_UPDATE_TEST_DATA=1 writes it
+// anew.
+std::string lookup_fixture() {
+  GridShape shape{{{-1, 0, 2}}, {{0.5f, 0.75f, 0.25f}}, {{3, 2, 4}}};
+  LightGrid grid = lamp_grid(shape, 11);
+  grid.normal_offset = 0.375f;
+  grid.valid[shape.index({{1, 1, 2}})] = 0;
+  fill_invalid(grid);
+  LightAtlas atlas(shape, AtlasForm::patched, grid.normal_offset, light_scale(grid));
+  atlas.update(grid);
+
+  std::ostringstream json;
+  json.precision(9);
+  const auto list = [&](const auto& values) {
+    json << "[";
+    for (size_t i = 0; i < values.size(); i++) json << (i ? "," : "") << values[i];
+    json << "]";
+  };
+  json << "{\"width\":" << atlas.width() << ",\"height\":" << atlas.height() << ",\"depth\":" << atlas.depth()
+       << ",\n\"halves\":";
+  list(atlas.halves);
+  const float half = std::sqrt(0.5f);
+  const std::array<GridPlacement, 4> placements{{{{}, {{0, 0, 0, 1}}, {{1, 1, 1}}},
+                                                 {{{5, -2, 1}}, {{0, half, 0, half}}, {{2, 2, 2}}},
+                                                 {{{1, 2, 3}}, {{0.48f, 0.6f, 0, 0.64f}}, {{1, 3, 0.5f}}},
+                                                 {{{1, 2, 3}}, {{0, 0.6f, 0, -0.8f}}, {{-1, 1, 1}}}}};
+  json << ",\n\"placements\":[";
+  for (size_t k = 0; k < placements.size(); k++) {
+    const GridPlacement& placement = placements[k];
+    json << (k ? ",\n" : "\n") << "{\"min\":";
+    list(placement.uniform_min(shape).e);
+    json << ",\"max\":";
+    list(placement.uniform_max().e);
+    json << ",\"resolution\":";
+    list(placement.uniform_resolution(shape).e);
+    json << ",\n\"samples\":[";
+    Random random(12, k);
+    for (int i = 0; i < 12; i++) {
+      const Vec3f p = shape.lo + (shape.hi() - shape.lo) * random_colour(random), n = random_direction(random);
+      json << (i ? ",\n" : "\n") << "{\"point\":";
+      list(placement.point(p).e);
+      json << ",\"normal\":";
+      list(placement.normal(n).e);
+      json << ",\"irradiance\":";
+      list(grid.irradiance(p, n).e);
+      json << "}";
+    }
+    json << "]}";
+  }
+  json << "]}\n";
+  return json.str();
+}
+
+TEST(LightAtlas, ThePagesFixtureIsCurrent) {
+  const std::string path = LIGHTWELL_TEST_DATA "/light/lookup.json";
+  const std::string current = lookup_fixture();
+  if (std::getenv("LIGHTWELL_UPDATE_TEST_DATA")) std::ofstream(path) << current;
+  std::ostringstream stored;
+  stored << std::ifstream(path).rdbuf();
+  EXPECT_EQ(stored.str(), current) << "LIGHTWELL_UPDATE_TEST_DATA=1 writes " << path << " anew";
+}
+
+}  // namespace
+}  // namespace lightwell
