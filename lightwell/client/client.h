@@ -4,43 +4,19 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string_view>
 
 #include "lightwell/base/bytes.h"
+#include "lightwell/client/action.h"
+#include "lightwell/client/schedule.h"
 #include "lightwell/client/update.h"
 #include "lightwell/light/push_pull.h"
 
 namespace lightwell {
 
-enum class Strategy : uint8_t {
-  interleave,  ///< whatever takes most of the error away per byte
-  geometry,    ///< all meshes, then textures, then light
-  light        ///< all light, then meshes and textures
-};
-
 struct ClientOptions {
   Strategy strategy = Strategy::interleave;
   Fill fill = Fill::push_pull;  ///< how nodes of the light grid that have not arrived are filled
   uint64_t seed = 1;            ///< of the jitter between retries
-};
-
-/// What the client wants of its transport.
-struct Action {
-  enum class Kind : uint8_t {
-    ask,    ///< send a request for the bytes first ... last (HTTP: "Range: bytes=first-last" and no other header)
-    cancel  ///< drop the request `id`; nothing more about it is to be told
-  };
-  Kind kind = Kind::ask;
-  uint32_t id = 0;
-  uint64_t first = 0;
-  uint64_t last = 0;  ///< inclusive
-};
-
-/// What a server said before the body, header by header; a field that the transport cannot see is empty.
-struct ResponseHead {
-  int status = 0;
-  std::string_view content_range;
-  std::string_view etag;
 };
 
 struct ClientProgress {
@@ -51,12 +27,12 @@ struct ClientProgress {
   uint64_t faces = 0, faces_total = 0;
   uint64_t nodes = 0, nodes_total = 0;  ///< of light grids
   uint32_t requests = 0;                ///< sent
-  uint32_t retries = 0;                 ///< consecutive failures: not 0 while the server is away
+  uint32_t failures = 0;                ///< of requests, in a row: not 0 while the server is away
 };
 
 /// Streams a pack: decides what to ask for, checks and decodes what comes, and hands over buffers. It has no clock, no
 /// thread and no I/O: whoever drives it tells it the time (seconds, from any start) and carries its requests.
-/// docs/format.md says what it reads, docs/streaming.md how it decides.
+/// docs/format.md says what it reads.
 ///
 /// A driver, in turn: performs next() until it gives nothing; reports to respond(), receive(), finish() or fail() what
 /// happens; calls work() while it says so; applies take() while it gives something; and comes back at wake() at the
@@ -79,7 +55,7 @@ class Client {
   /// It got no response, or the connection broke.
   void fail(uint32_t id, double now);
 
-  /// Decodes at most one block (about a millisecond) and says whether another waits.
+  /// Decodes at most one block (about a millisecond), or fills a light grid. False when there was nothing to do.
   bool work();
   /// The next piece to hand over, with at most about `budget` bytes (a light grid, texture or opening comes whole);
   /// nothing when there is none.

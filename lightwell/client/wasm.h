@@ -41,7 +41,8 @@ void lw_fail(uint32_t client, uint32_t request, double now);
 /// When to call lw_next again although nothing happened; infinity when there is no need.
 double lw_wake(uint32_t client, double now);
 
-/// Decodes at most one block; 1 when another waits.
+/// Decodes at most one block, or fills a light grid; 0 when there was nothing to do. A mesh takes no further block
+/// while a batch of it is half taken: call again after lw_take.
 uint32_t lw_work(uint32_t client);
 /// The next update, of at most about `budget` bytes, 0 for none; apply them in the order in which they come.
 ///   1 opening:  [0] pointer, [1] length: a GLB for GLTFLoader

@@ -58,4 +58,19 @@ std::vector<uint8_t> opening_as_glb(Bytes opening) {
   return glb.release();
 }
 
+GlbChunks glb_chunks(Bytes glb) {
+  ByteReader reader(glb);
+  reader.take(glb_header_bytes);
+  const auto chunk = [&] {
+    const uint32_t length = reader.u32();
+    reader.u32();
+    return reader.take(length);
+  };
+  GlbChunks chunks;
+  chunks.json = chunk();
+  if (reader.remaining() > 0) chunks.bin = chunk();
+  LW_ASSERT(reader.ok());
+  return chunks;
+}
+
 }  // namespace lightwell

@@ -32,4 +32,11 @@ Result<OpeningSize> measure_opening(Bytes prefix);
 /// end. `opening` is the first opening_length bytes of a pack.
 std::vector<uint8_t> opening_as_glb(Bytes opening);
 
+/// The JSON text, and the data of the BIN chunk (empty when there is none), of such a GLB.
+struct GlbChunks {
+  Bytes json;
+  Bytes bin;
+};
+GlbChunks glb_chunks(Bytes glb);
+
 }  // namespace lightwell

@@ -96,10 +96,7 @@ Result<std::vector<uint8_t>> PackReader::payload(size_t stream, uint32_t index) 
 
 Result<void> PackReader::verify_id() const {
   ContentHash hash;
-  constexpr size_t before_json = glb_header_bytes;
-  const size_t json_length = ByteReader(Bytes(opening_).subspan(before_json)).u32();
-  const Bytes behind_json = Bytes(opening_).subspan(before_json + chunk_header_bytes + json_length);
-  if (!behind_json.empty()) hash.update(behind_json.subspan(chunk_header_bytes));
+  hash.update(glb_chunks(opening_).bin);
   for (size_t stream = 0; stream < tables_.size(); stream++) {
     for (uint32_t i = 0; i < tables_[stream].extents(); i++) {
       LW_TRY(bytes, payload(stream, i));

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+#
+# lightwell_client_wasm: the client's rooms as lib/lightwell.wasm, a WebAssembly module that imports nothing. CMake knows one
+# C++ compiler a project, so this one is called by custom commands, an object a source file.
+find_program(LIGHTWELL_WASM_CXX clang++-19 REQUIRED)
+
+set(wasm_folder ${CMAKE_BINARY_DIR}/wasm)
+set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
+set(wasm_flags --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
+  -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
+  -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
+if(LIGHTWELL_WERROR)
+  list(APPEND wasm_flags -Werror)
+endif()
+
+# Of the system's headers the module needs tl::expected alone; the others are for another machine.
+find_path(LIGHTWELL_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)
+file(MAKE_DIRECTORY ${wasm_folder}/include ${CMAKE_BINARY_DIR}/lib)
+file(CREATE_LINK ${LIGHTWELL_EXPECTED_INCLUDE}/tl ${wasm_folder}/include/tl SYMBOLIC)
+
+lightwell_client_sources(wasm_sources base mesh light texture pack client)
+set(wasm_objects "")
+foreach(source ${wasm_sources})
+  file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/lightwell ${source})
+  string(REPLACE "/" "_" name ${name})
+  set(object ${wasm_folder}/${name}.o)
+  add_custom_command(OUTPUT ${object}
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} -MD -MF ${object}.d -c ${source} -o ${object}
+    DEPENDS ${source} DEPFILE ${object}.d COMMENT "Building WebAssembly object ${name}.o" VERBATIM)
+  list(APPEND wasm_objects ${object})
+endforeach()
+add_custom_command(OUTPUT ${wasm_module}
+  COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -O2 -Wl,--gc-sections -Wl,--strip-all
+          ${wasm_objects} -o ${wasm_module}
+  DEPENDS ${wasm_objects} COMMENT "Linking lib/lightwell.wasm" VERBATIM)
+add_custom_target(lightwell_client_wasm ALL DEPENDS ${wasm_module})

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/client/client.h"
+
+#include <algorithm>
+#include <deque>
+
+#include "lightwell/client/download.h"
+#include "lightwell/client/refiner.h"
+#include "lightwell/client/requests.h"
+#include "lightwell/pack/self_contained.h"
+
+namespace lightwell {
+
+class Client::Machine {
+ public:
+  explicit Machine(const ClientOptions& options)
+      : options_(options), requests_(download_, options.strategy, options.seed) {}
+
+  std::optional<Action> next(double now) { return requests_.next(weights_, now); }
+
+  Requests& requests() { return requests_; }
+
+  /// Follows the requests: opens what the download has opened, gives up when they did.
+  void follow() {
+    if (failure_) return;
+    if (requests_.failure()) return give_up(*requests_.failure());
+    if (weights_.empty() && download_.opened()) weights_.assign(download_.directory().streams.size(), 1.0f);
+    if (!checked_ && download_.opened()) check_opening();
+  }
+
+  bool work() {
+    if (failure_ || !download_.opened()) return false;
+    if (refiners_.size() < download_.directory().streams.size()) {
+      open_refiner();
+      return !failure_;
+    }
+    return decode_next() || settle_next();
+  }
+
+  std::optional<Update> take(size_t budget) {
+    if (failure_) return take_failure();
+    if (!download_.opened()) return std::nullopt;
+    if (!opening_taken_) {
+      opening_taken_ = true;
+      return OpeningUpdate{download_.opening()};
+    }
+    const size_t count = refiners_.size();
+    for (size_t tried = 0; tried < count; tried++) {
+      if (std::optional<Update> update = refiners_[turn_]->take(budget)) return update;
+      turn_ = (turn_ + 1) % count;
+    }
+    if (completed_ || !complete()) return std::nullopt;
+    completed_ = true;
+    return CompleteUpdate{};
+  }
+
+  void set_weight(uint32_t stream, float weight) {
+    if (stream < weights_.size() && weight >= 0) weights_[stream] = weight;
+  }
+
+  ClientProgress progress() const {
+    ClientProgress progress;
+    progress.bytes_total = download_.file_length();
+    progress.requests = requests_.sent();
+    progress.failures = requests_.failures();
+    if (!download_.opened()) return progress;
+    const std::vector<StreamEntry>& streams = download_.directory().streams;
+    progress.bytes = progress.bytes_total;
+    for (size_t i = 0; i < streams.size(); i++) {
+      const bool light = streams[i].kind == StreamKind::light;
+      (light ? progress.light_bytes : progress.geometry_bytes) += download_.received(i);
+      (light ? progress.light_bytes_total : progress.geometry_bytes_total) += streams[i].length;
+      progress.bytes -= streams[i].length - download_.received(i);
+      if (i >= refiners_.size()) continue;
+      (light ? progress.nodes : progress.faces) += refiners_[i]->decoded();
+      (light ? progress.nodes_total : progress.faces_total) += refiners_[i]->total();
+    }
+    return progress;
+  }
+
+  bool ended() const { return completed_ || failure_taken_; }
+
+ private:
+  void check_opening() {
+    checked_ = true;
+    const Bytes json = glb_chunks(download_.opening()).json;
+    const auto contained = check_self_contained({reinterpret_cast<const char*>(json.data()), json.size()});
+    if (!contained) give_up({FailureUpdate::Reason::unreadable, contained.error().message()});
+  }
+
+  void open_refiner() {
+    const uint32_t stream = static_cast<uint32_t>(refiners_.size());
+    auto refiner = make_refiner(download_.directory(), stream, glb_chunks(download_.opening()).bin, options_.fill);
+    if (!refiner) return give_up({FailureUpdate::Reason::unreadable, refiner.error().message()});
+    refiners_.push_back(std::move(*refiner));
+  }
+
+  /// Decodes a block of the next stream, in turns, that has one and takes one.
+  bool decode_next() {
+    const size_t count = refiners_.size();
+    for (size_t tried = 0; tried < count; tried++) {
+      const size_t stream = decoding_;
+      decoding_ = (decoding_ + 1) % count;
+      if (!download_.ready(stream) || !refiners_[stream]->accepts()) continue;
+      const auto decoded = refiners_[stream]->append(download_.take(stream));
+      if (!decoded)
+        give_up({FailureUpdate::Reason::unreadable, "stream " + std::to_string(stream) + ", block " +
+                                                        std::to_string(download_.taken(stream) - 1) + ": " +
+                                                        decoded.error().message()});
+      return !failure_;
+    }
+    return false;
+  }
+
+  bool settle_next() {
+    return std::ranges::any_of(refiners_, [](const auto& refiner) { return refiner->settle(); });
+  }
+
+  bool complete() const {
+    for (size_t i = 0; i < download_.directory().streams.size(); i++)
+      if (!download_.complete(i)) return false;
+    return refiners_.size() == download_.directory().streams.size() &&
+           std::ranges::all_of(refiners_, [](const auto& refiner) { return refiner->settled(); });
+  }
+
+  void give_up(FailureUpdate failure) {
+    failure_ = std::move(failure);
+    requests_.stop();
+  }
+
+  std::optional<Update> take_failure() {
+    if (failure_taken_) return std::nullopt;
+    failure_taken_ = true;
+    return *failure_;
+  }
+
+  ClientOptions options_;
+  Download download_;
+  Requests requests_;
+  std::vector<float> weights_;
+  std::vector<std::unique_ptr<Refiner>> refiners_;
+  size_t decoding_ = 0;  ///< the stream whose turn it is to be decoded
+  size_t turn_ = 0;      ///< the stream whose turn it is to hand over
+  bool checked_ = false;
+  bool opening_taken_ = false;
+  bool completed_ = false;
+  bool failure_taken_ = false;
+  std::optional<FailureUpdate> failure_;
+};
+
+Client::Client(const ClientOptions& options) : machine_(std::make_unique<Machine>(options)) {}
+Client::Client(Client&&) noexcept = default;
+Client& Client::operator=(Client&&) noexcept = default;
+Client::~Client() = default;
+
+std::optional<Action> Client::next(double now) { return machine_->next(now); }
+
+void Client::respond(uint32_t id, const ResponseHead& head, double now) {
+  machine_->requests().respond(id, head, now);
+  machine_->follow();
+}
+
+void Client::receive(uint32_t id, Bytes bytes, double now) {
+  machine_->requests().receive(id, bytes, now);
+  machine_->follow();
+}
+
+void Client::finish(uint32_t id, double now) {
+  machine_->requests().finish(id, now);
+  machine_->follow();
+}
+
+void Client::fail(uint32_t id, double now) { machine_->requests().fail(id, now); }
+
+bool Client::work() { return machine_->work(); }
+
+std::optional<Update> Client::take(size_t budget) { return machine_->take(budget); }
+
+double Client::wake(double now) const { return machine_->requests().wake(now); }
+
+void Client::set_weight(uint32_t stream, float weight) { machine_->set_weight(stream, weight); }
+
+ClientProgress Client::progress() const { return machine_->progress(); }
+
+bool Client::ended() const { return machine_->ended(); }
+
+}  // namespace lightwell

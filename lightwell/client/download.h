@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
+#include "lightwell/pack/block_table.h"
+#include "lightwell/pack/directory.h"
+#include "lightwell/pack/opening.h"
+
+namespace lightwell {
+
+/// A body on its way: where in the file its next byte belongs, and the beginning of an extent that is not whole yet.
+struct Cursor {
+  uint64_t position = 0;
+  std::vector<uint8_t> partial;
+};
+
+/// Consecutive extents of a stream that nobody has asked for.
+struct Run {
+  size_t stream = 0;
+  uint32_t first = 0;  ///< extent
+  uint32_t count = 0;
+  uint64_t begin = 0;  ///< file position
+  uint64_t end = 0;
+};
+
+/// The file as far as it has arrived. Bytes may come in any order and more than once; only what passes its check
+/// counts. A check that fails twice at the same place is an error, a first one is forgotten: the place is missing
+/// again.
+class Download {
+ public:
+  /// Takes bytes of a body and moves its cursor. Gives the number of good bytes gained.
+  Result<uint64_t> receive(Cursor& cursor, Bytes bytes);
+
+  /// True when opening and directory are there.
+  bool opened() const { return directory_.has_value(); }
+  /// Before that: the bytes begin ... end-1 of the file to ask for.
+  std::pair<uint64_t, uint64_t> wanted_head() const;
+  /// The length of the file, 0 while unknown.
+  uint64_t file_length() const { return size_.file_length; }
+  /// True when a block was damaged and the directory should be read again, to learn whether the file is still the same
+  /// one.
+  bool suspicious() const { return suspicious_; }
+  /// The bytes to ask for in that case.
+  std::pair<uint64_t, uint64_t> wanted_witness() const;
+  /// True when the directory that the server has now is another one.
+  bool replaced() const { return replaced_; }
+
+  // The rest needs opened().
+  const Directory& directory() const { return *directory_; }
+  const std::vector<uint8_t>& opening() const { return opening_; }
+  const BlockTable& table(size_t stream) const { return streams_[stream].table; }
+  /// Bytes of the stream that have arrived.
+  uint64_t received(size_t stream) const { return streams_[stream].received; }
+  /// Bytes of checked blocks that nobody has taken.
+  uint64_t backlog() const { return backlog_; }
+
+  /// The first missing extents of a stream, about `length` bytes of them and at least one; none when nothing known is
+  /// missing. When less than `ahead` bytes of the stream are known and missing, its next table page comes first.
+  std::optional<Run> missing(size_t stream, uint64_t length, uint64_t ahead) const;
+  /// Marks a run as asked for, so that it is not missing.
+  void asked(const Run& run);
+  /// Marks what has not arrived of a run as missing again.
+  void unasked(const Run& run);
+
+  /// True when the stream's next block, in its order, is there.
+  bool ready(size_t stream) const;
+  /// Takes its payload.
+  std::vector<uint8_t> take(size_t stream);
+  /// Number of blocks taken.
+  uint32_t taken(size_t stream) const { return streams_[stream].next; }
+  bool complete(size_t stream) const { return taken(stream) == table(stream).blocks(); }
+
+ private:
+  enum class State : uint8_t { missing, asked, here };
+  struct Stream {
+    BlockTable table;
+    std::vector<State> states;                       ///< of the known extents
+    uint32_t first_missing = 0;                      ///< no extent before it is missing
+    std::map<uint32_t, std::vector<uint8_t>> ready;  ///< blocks that have arrived and were not taken
+    uint32_t next = 0;
+    uint64_t received = 0;
+  };
+
+  Result<uint64_t> receive_head(Cursor& cursor, Bytes& bytes);
+  Result<void> open();
+  uint64_t compare_witness(Cursor& cursor, Bytes& bytes);
+  Result<uint64_t> receive_extent(size_t stream, Cursor& cursor, Bytes& bytes);
+  Result<uint64_t> accept(size_t stream, uint32_t index, Bytes bytes);
+  Result<void> strike(size_t stream, const Extent& extent);
+  std::optional<size_t> stream_at(uint64_t position) const;
+
+  std::vector<uint8_t> head_;
+  OpeningSize size_;
+  bool head_failed_ = false;
+  std::optional<Directory> directory_;
+  std::vector<uint8_t> opening_;
+  std::vector<uint8_t> witness_;  ///< the directory's first fields, its id among them
+  std::vector<Stream> streams_;
+  std::map<std::pair<size_t, uint32_t>, int> strikes_;
+  uint64_t backlog_ = 0;
+  bool suspicious_ = false;
+  bool replaced_ = false;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/client/refiner.h"
+
+#include "lightwell/base/assert.h"
+
+namespace lightwell {
+namespace {
+
+Result<std::unique_ptr<Refiner>> make(const StreamEntry& entry, uint32_t stream, Bytes bin, Fill fill) {
+  if (entry.codec != 0)
+    return fail("codec", "the " + std::string(to_text(entry.kind)) + " codec " + std::to_string(entry.codec) +
+                             " is not known to this program");
+  switch (entry.kind) {
+    case StreamKind::light: return make_light_refiner(entry, stream, fill);
+    case StreamKind::mesh: return make_mesh_refiner(entry, stream, bin);
+    case StreamKind::texture: return make_texture_refiner(entry, stream);
+  }
+  LW_ASSERT(false);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Refiner>> make_refiner(const Directory& directory, uint32_t stream, Bytes bin, Fill fill) {
+  auto refiner = make(directory.streams[stream], stream, bin, fill);
+  if (!refiner) return lightwell::fail("stream " + std::to_string(stream), refiner.error().message());
+  return refiner;
+}
+
+}  // namespace lightwell

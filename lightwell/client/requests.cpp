@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/client/requests.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lightwell {
+namespace {
+
+constexpr size_t most_in_flight = 4;
+constexpr double patience_seconds = 20;         // with a server that says nothing
+constexpr uint64_t longest_backlog = 8u << 20;  // bytes of blocks that wait for the decoder
+constexpr double never = std::numeric_limits<double>::infinity();
+
+bool worth_another_try(int status) { return status == 408 || status == 425 || status == 429 || status >= 500; }
+
+}  // namespace
+
+std::optional<Action> Requests::next(std::span<const float> weights, double now) {
+  if (!stopped_) drop_silent(now);
+  if (!cancels_.empty()) {
+    const uint32_t id = cancels_.front();
+    cancels_.pop_front();
+    return Action{Action::Kind::cancel, id};
+  }
+  if (stopped_ || whole_ || now < line_.retry_at()) return std::nullopt;
+  if (!download_.opened()) {
+    if (!open_.empty()) return std::nullopt;
+    return ask(download_.wanted_head(), std::nullopt, now);
+  }
+  return ask_for_extents(weights, now);
+}
+
+std::optional<Action> Requests::ask_for_extents(std::span<const float> weights, double now) {
+  // While the line is in doubt one request is enough to find out.
+  if (open_.size() >= (line_.failures() > 0 ? 1 : most_in_flight)) return std::nullopt;
+  // The request that brought the opening still brings blocks; the witness decides whether it makes sense to go on.
+  if (std::ranges::any_of(open_, [](const auto& open) { return !open.second.run; })) return std::nullopt;
+  if (download_.suspicious()) return ask(download_.wanted_witness(), std::nullopt, now);
+  if (download_.backlog() > longest_backlog) return std::nullopt;
+  const std::optional<Run> run = choose(download_, strategy_, weights, line_.request_length(), most_in_flight);
+  if (!run) return std::nullopt;
+  download_.asked(*run);
+  return ask({run->begin, run->end}, run, now);
+}
+
+Action Requests::ask(std::pair<uint64_t, uint64_t> bytes, std::optional<Run> run, double now) {
+  line_.sent(now, open_.empty());
+  const uint32_t id = next_id_++;
+  Request& request = open_[id];
+  request.cursor.position = bytes.first;
+  request.end = bytes.second;
+  request.run = run;
+  request.heard = now;
+  return {Action::Kind::ask, id, bytes.first, bytes.second - 1};
+}
+
+void Requests::respond(uint32_t id, const ResponseHead& head, double now) {
+  const auto request = open_.find(id);
+  if (request == open_.end()) return;
+  request->second.heard = now;
+  if (head.status != 200 && head.status != 206) return respond_refused(request, head, now);
+  if (!same_file(head.etag)) return;
+  if (head.status == 206) return respond_partial(request, head.content_range, now);
+  respond_whole(request);
+}
+
+void Requests::respond_partial(Open::iterator request, std::string_view content_range, double now) {
+  if (content_range.empty()) return;  // not readable from another origin: it will be what was asked for
+  const std::optional<ContentRange> range = ContentRange::parse(content_range);
+  if (!range || range->first != request->second.cursor.position) return abandon(request, now);
+  if (range->total) same_length(*range->total);
+}
+
+/// The server does not know ranges: its one response brings everything, and the others would bring it again.
+void Requests::respond_whole(Open::iterator request) {
+  whole_ = request->first;
+  request->second.cursor.position = 0;
+  request->second.end = std::numeric_limits<uint64_t>::max();
+  for (auto other = open_.begin(); other != open_.end();) {
+    const auto current = other++;
+    if (current == request) continue;
+    cancels_.push_back(current->first);
+    if (current->second.run) download_.unasked(*current->second.run);
+    open_.erase(current);
+  }
+}
+
+void Requests::respond_refused(Open::iterator request, const ResponseHead& head, double now) {
+  using Reason = FailureUpdate::Reason;
+  const int status = head.status;
+  if (status == 416 && download_.opened())
+    return give_up(Reason::replaced, "the file has become shorter: it was replaced or cut");
+  if (status == 416) return give_up(Reason::unreadable, "the file is cut short");
+  if (!worth_another_try(status)) return give_up(Reason::refused, "the server answers " + std::to_string(status));
+  abandon(request, now);
+}
+
+void Requests::receive(uint32_t id, Bytes bytes, double now) {
+  const auto found = open_.find(id);
+  if (found == open_.end()) return;
+  Request& request = found->second;
+  request.heard = now;
+  line_.arrived(bytes.size(), now);
+  const uint64_t wanted = request.end - std::min(request.end, request.cursor.position);
+  const Bytes used = bytes.first(static_cast<size_t>(std::min<uint64_t>(bytes.size(), wanted)));
+  const Result<uint64_t> gained = download_.receive(request.cursor, used);
+  if (!gained) return give_up(FailureUpdate::Reason::unreadable, gained.error().message());
+  if (download_.replaced()) return give_up(FailureUpdate::Reason::replaced, "the file was replaced while it was read");
+  request.gained += *gained;
+  if (*gained > 0) line_.succeeded();
+  if (!download_.opened() && request.cursor.position > download_.wanted_head().first) return abandon(found, now);
+  if (length_ != 0) same_length(length_);
+}
+
+void Requests::finish(uint32_t id, double now) {
+  const auto request = open_.find(id);
+  if (request != open_.end()) end(request, request->second.gained == 0, now);
+}
+
+void Requests::fail(uint32_t id, double now) {
+  const auto request = open_.find(id);
+  if (request != open_.end()) end(request, true, now);
+}
+
+void Requests::end(Open::iterator request, bool failed, double now) {
+  if (request->second.run) download_.unasked(*request->second.run);
+  if (failed) line_.failed(now);
+  if (whole_ == request->first) whole_.reset();
+  open_.erase(request);
+}
+
+void Requests::abandon(Open::iterator request, double now) {
+  cancels_.push_back(request->first);
+  end(request, true, now);
+}
+
+void Requests::drop_silent(double now) {
+  for (auto request = open_.begin(); request != open_.end();) {
+    const auto current = request++;
+    if (now >= current->second.heard + patience_seconds) abandon(current, now);
+  }
+}
+
+bool Requests::same_length(uint64_t length) {
+  const uint64_t before = length_ != 0 ? length_ : length;
+  length_ = length;
+  const uint64_t stated = download_.file_length();
+  if (before != length) {
+    give_up(FailureUpdate::Reason::replaced, "the file was replaced while it was read: its length has changed");
+  } else if (stated != 0 && stated != length && download_.opened()) {
+    give_up(FailureUpdate::Reason::unreadable,
+            "the file has " + std::to_string(length) + " bytes, but should have " + std::to_string(stated));
+  } else {
+    return true;
+  }
+  return false;
+}
+
+bool Requests::same_file(std::string_view etag) {
+  if (etag.empty()) return true;
+  if (etag_.empty()) etag_ = etag;
+  if (etag_ == etag) return true;
+  give_up(FailureUpdate::Reason::replaced, "the file was replaced while it was read: its ETag has changed");
+  return false;
+}
+
+void Requests::give_up(FailureUpdate::Reason reason, std::string message) {
+  if (!failure_) failure_ = FailureUpdate{reason, std::move(message)};
+  stop();
+}
+
+void Requests::stop() {
+  stopped_ = true;
+  for (const auto& [id, request] : open_) cancels_.push_back(id);
+  open_.clear();
+  whole_.reset();
+}
+
+double Requests::wake(double now) const {
+  if (stopped_) return never;
+  double when = line_.retry_at() > now ? line_.retry_at() : never;
+  for (const auto& [id, request] : open_) when = std::min(when, request.heard + patience_seconds);
+  return when;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "lightwell/client/action.h"
+#include "lightwell/client/download.h"
+#include "lightwell/client/line.h"
+#include "lightwell/client/schedule.h"
+#include "lightwell/client/update.h"
+
+namespace lightwell {
+
+/// The requests of a client: asks for what a download lacks, follows the answers, and tries again what failed.
+class Requests {
+ public:
+  Requests(Download& download, Strategy strategy, uint64_t seed)
+      : download_(download), strategy_(strategy), line_(seed) {}
+
+  /// The next thing to do, if any; `weights` as in choose().
+  std::optional<Action> next(std::span<const float> weights, double now);
+  void respond(uint32_t id, const ResponseHead& head, double now);
+  void receive(uint32_t id, Bytes bytes, double now);
+  void finish(uint32_t id, double now);
+  void fail(uint32_t id, double now);
+
+  /// Ends everything: what is under way is cancelled, and nothing is asked any more.
+  void stop();
+  /// Why that happened, if it was not somebody else who called stop().
+  const std::optional<FailureUpdate>& failure() const { return failure_; }
+
+  double wake(double now) const;
+  uint32_t sent() const { return next_id_ - 1; }
+  uint32_t failures() const { return line_.failures(); }
+
+ private:
+  struct Request {
+    Cursor cursor;
+    uint64_t end = 0;        ///< the body is read up to this position of the file
+    std::optional<Run> run;  ///< what it is for; none: the opening, or the witness
+    uint64_t gained = 0;     ///< good bytes
+    double heard = 0;        ///< time of the last sign of life
+  };
+  using Open = std::map<uint32_t, Request>;
+
+  Action ask(std::pair<uint64_t, uint64_t> bytes, std::optional<Run> run, double now);
+  std::optional<Action> ask_for_extents(std::span<const float> weights, double now);
+  void respond_partial(Open::iterator request, std::string_view content_range, double now);
+  void respond_whole(Open::iterator request);
+  void respond_refused(Open::iterator request, const ResponseHead& head, double now);
+  /// False, and the end of everything, when the file has not this length any more.
+  bool same_length(uint64_t length);
+  bool same_file(std::string_view etag);
+  /// Forgets a request that is over; a failed one makes the next ones wait.
+  void end(Open::iterator request, bool failed, double now);
+  /// Cancels a request that failed.
+  void abandon(Open::iterator request, double now);
+  void drop_silent(double now);
+  void give_up(FailureUpdate::Reason reason, std::string message);
+
+  Download& download_;
+  Strategy strategy_;
+  Line line_;
+  uint32_t next_id_ = 1;
+  Open open_;
+  std::deque<uint32_t> cancels_;
+  std::optional<uint32_t> whole_;  ///< the one response that brings the whole file
+  std::string etag_;
+  uint64_t length_ = 0;  ///< of the file, as the server says; 0 while unknown
+  bool stopped_ = false;
+  std::optional<FailureUpdate> failure_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/client/schedule.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace lightwell {
+namespace {
+
+int rank(Strategy strategy, StreamKind kind) {
+  switch (strategy) {
+    case Strategy::geometry: return kind == StreamKind::mesh ? 0 : kind == StreamKind::texture ? 1 : 2;
+    case Strategy::light: return kind == StreamKind::light ? 0 : 1;
+    case Strategy::interleave: return 0;
+  }
+  return 0;
+}
+
+/// The error that remains when all blocks before `block` are there.
+float error_before(const Download& download, size_t stream, uint32_t block) {
+  return block == 0 ? download.directory().streams[stream].error : download.table(stream).rows()[block - 1].error;
+}
+
+/// The share of the stream's first error that a run takes away per byte. A page itself takes nothing away: it is worth
+/// the average of all that follows it.
+double benefit(const Download& download, const Run& run) {
+  const StreamEntry& entry = download.directory().streams[run.stream];
+  if (entry.error <= 0) return 0;
+  const BlockTable& table = download.table(run.stream);
+  const Extent first = table.extent(run.first);
+  const float before = error_before(download, run.stream, first.block);
+  if (first.page) return before / entry.error / static_cast<double>(table.end() - run.begin);
+  const Extent last = table.extent(run.first + run.count - 1);
+  const float after = error_before(download, run.stream, last.page ? last.block : last.block + 1);
+  return std::max(0.0f, before - after) / entry.error / static_cast<double>(run.end - run.begin);
+}
+
+}  // namespace
+
+std::optional<Run> choose(const Download& download, Strategy strategy, std::span<const float> weights, uint64_t length,
+                          uint64_t in_flight) {
+  const std::vector<StreamEntry>& streams = download.directory().streams;
+  std::optional<Run> best;
+  std::tuple<int, double, StreamKind> best_order;
+  for (size_t i = 0; i < streams.size(); i++) {
+    const std::optional<Run> run = download.missing(i, length, length * in_flight);
+    if (!run) continue;
+    const std::tuple order(rank(strategy, streams[i].kind), -weights[i] * benefit(download, *run), streams[i].kind);
+    if (best && order >= best_order) continue;
+    best = run;
+    best_order = order;
+  }
+  return best;
+}
+
+}  // namespace lightwell
