@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { AttributeLayout, Component, PackEvent, Semantic, Strategy } from './protocol.js';
+
+/** The functions of lightwell.wasm; lightwell/client/wasm.h documents them. */
+interface Exports {
+  memory: WebAssembly.Memory;
+  lw_abi_version(): number;
+  lw_create(strategy: number, fill: number, seed: number): number;
+  lw_destroy(client: number): void;
+  lw_input(length: number): number;
+  lw_record(): number;
+  lw_next(client: number, now: number): number;
+  lw_respond(client: number, request: number, status: number, rangeLength: number, etagLength: number, now: number): void;
+  lw_receive(client: number, request: number, length: number, now: number): void;
+  lw_finish(client: number, request: number, now: number): void;
+  lw_fail(client: number, request: number, now: number): void;
+  lw_wake(client: number, now: number): number;
+  lw_work(client: number): number;
+  lw_take(client: number, budget: number): number;
+  lw_set_strategy(client: number, strategy: number): void;
+  lw_set_weight(client: number, stream: number, weight: number): void;
+  lw_progress(client: number): void;
+}
+
+const ABI_VERSION = 1;
+const STRATEGIES: Strategy[] = ['interleave', 'geometry', 'light'];
+const SEMANTICS: Semantic[] = ['position', 'normal', 'texcoord_0', 'texcoord_1', 'color'];
+const COMPONENTS: Component[] = ['i8', 'u8', 'i16', 'u16', 'f32'];
+const IMAGE_TYPES = ['image/png', 'image/jpeg', 'image/webp'];
+const FAILURES = ['unreadable', 'replaced', 'refused'] as const;
+
+/** What the client wants of its transport. */
+export type Action =
+  | { type: 'ask'; request: number; first: number; last: number }
+  | { type: 'cancel'; request: number };
+
+export interface Counts {
+  bytes: [number, number];
+  geometry: [number, number];
+  light: [number, number];
+  faces: [number, number];
+  nodes: [number, number];
+  requests: number;
+  failures: number;
+}
+
+/** The client of lightwell/client/ with JavaScript's types. Times are seconds. */
+export class WasmClient {
+  readonly #wasm: Exports;
+  readonly #handle: number;
+
+  constructor(exports: WebAssembly.Exports, strategy: Strategy) {
+    this.#wasm = exports as unknown as Exports;
+    const version = this.#wasm.lw_abi_version();
+    if (version !== ABI_VERSION) throw new Error(`lightwell.wasm is of interface ${version}, this script of ${ABI_VERSION}`);
+    const seed = Math.floor(Math.random() * 2 ** 32);
+    this.#handle = this.#wasm.lw_create(STRATEGIES.indexOf(strategy), 0, seed);
+  }
+
+  destroy(): void {
+    this.#wasm.lw_destroy(this.#handle);
+  }
+
+  next(now: number): Action | null {
+    const kind = this.#wasm.lw_next(this.#handle, now);
+    if (kind === 0) return null;
+    const [request = 0, first = 0, last = 0] = this.#record(3);
+    return kind === 1 ? { type: 'ask', request, first, last } : { type: 'cancel', request };
+  }
+
+  respond(request: number, status: number, contentRange: string, etag: string, now: number): void {
+    const encoder = new TextEncoder();
+    const texts = [encoder.encode(contentRange), encoder.encode(etag)] as const;
+    const input = this.#input(texts[0].length + texts[1].length);
+    input.set(texts[0]);
+    input.set(texts[1], texts[0].length);
+    this.#wasm.lw_respond(this.#handle, request, status, texts[0].length, texts[1].length, now);
+  }
+
+  receive(request: number, bytes: Uint8Array, now: number): void {
+    this.#input(bytes.length).set(bytes);
+    this.#wasm.lw_receive(this.#handle, request, bytes.length, now);
+  }
+
+  finish(request: number, now: number): void {
+    this.#wasm.lw_finish(this.#handle, request, now);
+  }
+
+  fail(request: number, now: number): void {
+    this.#wasm.lw_fail(this.#handle, request, now);
+  }
+
+  /** Seconds until next() has to be called although nothing happened. */
+  wakeIn(now: number): number {
+    return this.#wasm.lw_wake(this.#handle, now) - now;
+  }
+
+  /** Decodes at most one block; true when another waits. */
+  work(): boolean {
+    return this.#wasm.lw_work(this.#handle) !== 0;
+  }
+
+  setStrategy(strategy: Strategy): void {
+    this.#wasm.lw_set_strategy(this.#handle, STRATEGIES.indexOf(strategy));
+  }
+
+  setWeight(stream: number, weight: number): void {
+    this.#wasm.lw_set_weight(this.#handle, stream, weight);
+  }
+
+  counts(): Counts {
+    this.#wasm.lw_progress(this.#handle);
+    const r = this.#record(12);
+    const pair = (i: number): [number, number] => [r[i]!, r[i + 1]!];
+    return {
+      bytes: pair(0),
+      geometry: pair(2),
+      light: pair(4),
+      faces: pair(6),
+      nodes: pair(8),
+      requests: r[10]!,
+      failures: r[11]!,
+    };
+  }
+
+  /** The next update, of at most about `budget` bytes. */
+  take(budget: number): PackEvent | null {
+    const kind = this.#wasm.lw_take(this.#handle, budget);
+    const r = this.#record(32);
+    const stream = r[0]!;
+    switch (kind) {
+      case 1:
+        return { type: 'opening', glb: this.#copy(r[0]!, r[1]!) };
+      case 2:
+        return {
+          type: 'mesh',
+          stream,
+          vertices: r[1]!,
+          faces: r[2]!,
+          attributes: Array.from(r.subarray(4, 4 + r[3]!), attributeLayout),
+        };
+      case 3:
+        return { type: 'range', stream, buffer: r[1]!, offset: r[2]!, data: new Uint8Array(this.#copy(r[3]!, r[4]!)) };
+      case 4:
+        return { type: 'draw', stream, vertices: r[1]!, faces: r[2]! };
+      case 5:
+        return {
+          type: 'light',
+          stream,
+          width: r[1]!,
+          height: r[2]!,
+          depth: r[3]!,
+          atlas: new Uint16Array(this.#copy(r[5]!, r[6]!)),
+        };
+      case 6:
+        return { type: 'texture', stream, mimeType: IMAGE_TYPES[r[1]!]!, file: this.#copy(r[4]!, r[5]!) };
+      case 7:
+        return { type: 'connection', state: 'complete' };
+      case 8:
+        return { type: 'failure', reason: FAILURES[r[0]!]!, message: new TextDecoder().decode(this.#copy(r[1]!, r[2]!)) };
+      default:
+        return null;
+    }
+  }
+
+  /** Where the next call's bytes go: a new view each time, since the module's memory may have grown. */
+  #input(length: number): Uint8Array {
+    const pointer = this.#wasm.lw_input(length);
+    return new Uint8Array(this.#wasm.memory.buffer, pointer, length);
+  }
+
+  #record(words: number): Uint32Array {
+    const pointer = this.#wasm.lw_record();
+    return new Uint32Array(this.#wasm.memory.buffer, pointer, words);
+  }
+
+  #copy(pointer: number, length: number): ArrayBuffer {
+    return this.#wasm.memory.buffer.slice(pointer, pointer + length) as ArrayBuffer;
+  }
+}
+
+function attributeLayout(word: number): AttributeLayout {
+  return {
+    semantic: SEMANTICS[word & 0xff]!,
+    component: COMPONENTS[(word >>> 8) & 0xff]!,
+    components: (word >>> 16) & 0xf,
+    stride: (word >>> 20) & 0xff,
+    normalized: word >>> 31 === 1,
+  };
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a pack's glTF extensions say; docs/format.md describes them.
+
+type Triple = [number, number, number];
+
+export interface StreamsExtension {
+  version: number;
+  id: string;
+  /** In stops: pictures are multiplied by 2 to this power. */
+  exposure?: number;
+  streams: { kind: 'light' | 'mesh' | 'texture'; bytes: number }[];
+}
+
+/** On a primitive. */
+export interface ProgressiveMeshExtension {
+  stream: number;
+  bounds: { min: Triple; max: Triple };
+}
+
+/** On a texture. */
+export interface ProgressiveTextureExtension {
+  stream: number;
+  width: number;
+  height: number;
+}
+
+export interface LightGridDefinition {
+  stream: number;
+  /** The first node's place. */
+  min: Triple;
+  /** From a node to the next, on each axis. */
+  cell: Triple;
+  nodes: Triple;
+  /** In cells. */
+  normalOffset: number;
+  priority?: number;
+  /** The light that the grid holds besides what bounced: 'environment' or lamps. */
+  contains?: string[];
+}
+
+export interface LampDefinition {
+  kind: 'rectangle' | 'sphere' | 'point' | 'spot' | 'sun';
+  center?: Triple;
+  /** Where it shines. */
+  normal?: Triple;
+  /** Half the sides of a rectangle. */
+  u?: Triple;
+  v?: Triple;
+  radius?: number;
+  /** Of rectangles and spheres, W/m2/sr. */
+  radiance?: Triple;
+  /** Of points and spots W/sr, of suns W/m2. */
+  intensity?: Triple;
+  /** Angles of a spot's cone, radians from its axis. */
+  inner?: number;
+  outer?: number;
+  /** Metres; absent or 0: without end. */
+  range?: number;
+  /** The glTF node that it comes from. */
+  node?: number;
+}
+
+/** The extensions that stand at the root of a pack's JSON. */
+export interface PackExtensions {
+  LIGHTWELL_streams?: StreamsExtension;
+  LIGHTWELL_light_grids?: { grids: LightGridDefinition[] };
+  LIGHTWELL_lamps?: { lamps: LampDefinition[] };
+}

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Packs in three.js.
+export { LightwellLight } from './light.js';
+export { LightwellLoader, type LoaderOptions } from './loader.js';
+export { LightwellScene, type LightwellSceneEventMap, type SceneOptions } from './scene.js';
+export { BYTES_PER_FRAME } from './upload_budget.js';

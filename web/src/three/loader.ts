@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
+import { type ConnectionOptions, PackConnection } from '../core/connection.js';
+import type { PackEvent } from '../core/protocol.js';
+import { readOpening } from './opening.js';
+import { LightwellScene, type SceneOptions } from './scene.js';
+
+export type LoaderOptions = ConnectionOptions & SceneOptions;
+
+/**
+ * Loads a pack. What it gives can be shown as soon as the pack's first kilobytes are here and refines itself from then on:
+ *
+ *     const loader = new LightwellLoader().setRenderer(renderer);
+ *     scene.add(await loader.loadAsync('room.lw.glb'));
+ *
+ * Create it before the renderer compiles materials that the light is to reach.
+ */
+export class LightwellLoader extends Loader<LightwellScene> {
+  #renderer: WebGLRenderer | null = null;
+  #options: LoaderOptions = {};
+
+  constructor(manager?: LoadingManager) {
+    super(manager);
+  }
+
+  /** The renderer that will show what is loaded: textures are filled in place, which needs it. */
+  setRenderer(renderer: WebGLRenderer): this {
+    this.#renderer = renderer;
+    return this;
+  }
+
+  setOptions(options: LoaderOptions): this {
+    this.#options = options;
+    return this;
+  }
+
+  override load(
+    url: string,
+    onLoad: (scene: LightwellScene) => void,
+    onProgress?: (event: globalThis.ProgressEvent) => void,
+    onError?: (error: unknown) => void,
+  ): void {
+    const item = this.manager.resolveURL(this.path + url);
+    this.manager.itemStart(item);
+    this.#load(item, onProgress)
+      .then(onLoad)
+      .catch((error: unknown) => {
+        this.manager.itemError(item);
+        if (onError === undefined) console.error(error);
+        else onError(error);
+      })
+      .finally(() => this.manager.itemEnd(item));
+  }
+
+  /** The scene's events begin after `onLoad`, so that nobody misses one. */
+  async #load(url: string, onProgress?: (event: globalThis.ProgressEvent) => void): Promise<LightwellScene> {
+    const renderer = this.#renderer;
+    if (renderer === null) throw new Error('LightwellLoader: call setRenderer before loading');
+    const connection = new PackConnection(url, this.#options);
+    try {
+      const { glb, later } = await receiveOpening(connection, onProgress);
+      const opening = await readOpening(glb, this.manager);
+      const scene = await LightwellScene.create(opening, connection, renderer, this.#options);
+      setTimeout(() => {
+        later.forEach((event) => scene.receive(event));
+        connection.onEvent = (event) => scene.receive(event);
+      });
+      return scene;
+    } catch (error) {
+      connection.close();
+      throw error;
+    }
+  }
+}
+
+/** Waits for the opening; what comes behind it is kept for the scene. */
+function receiveOpening(
+  connection: PackConnection,
+  onProgress?: (event: globalThis.ProgressEvent) => void,
+): Promise<{ glb: ArrayBuffer; later: PackEvent[] }> {
+  const later: PackEvent[] = [];
+  return new Promise((resolve, reject) => {
+    connection.onEvent = (event) => {
+      if (event.type === 'opening') resolve({ glb: event.glb, later });
+      else if (event.type === 'failure') reject(new Error(event.message));
+      else if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
+      later.push(event);
+    };
+  });
+}
+
+function asProgressEvent({ done, total }: { done: number; total: number }): globalThis.ProgressEvent {
+  return new globalThis.ProgressEvent('progress', { lengthComputable: total > 0, loaded: done, total });
+}

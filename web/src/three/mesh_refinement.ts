@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+import { Box3, BufferAttribute, BufferGeometry, Sphere, type TypedArray } from 'three';
+import { type AttributeLayout, type DrawEvent, INDICES, type MeshEvent, type RangeEvent } from '../core/protocol.js';
+import { HalfBuffers } from './half_buffers.js';
+import type { Refinement } from './refinement.js';
+import type { UploadBudget } from './upload_budget.js';
+
+const ATTRIBUTE_NAMES = {
+  position: 'position',
+  normal: 'normal',
+  texcoord_0: 'uv',
+  texcoord_1: 'uv1',
+  color: 'color',
+} as const;
+
+const COMPONENT_ARRAYS = {
+  i8: Int8Array,
+  u8: Uint8Array,
+  i16: Int16Array,
+  u16: Uint16Array,
+  f32: Float32Array,
+} as const;
+
+/** Bytes of one attribute that came and that the GPU does not have yet: elements [begin, end) of its array. */
+interface Fresh {
+  attribute: BufferAttribute;
+  begin: number;
+  end: number;
+}
+
+/** One state of the mesh that can be drawn: the index ranges and, once whole, the number of faces. */
+interface Batch {
+  ranges: RangeEvent[];
+  bytes: number;
+  faces: number;
+  whole: boolean;
+}
+
+/**
+ * A mesh that grows in place. Its geometry has buffers of the final sizes; new vertices are handed over as they come, then
+ * the faces that use them, and only then does the geometry draw these.
+ */
+export class MeshRefinement implements Refinement {
+  readonly geometry = new BufferGeometry();
+  readonly #attributes: BufferAttribute[];
+  readonly #index: HalfBuffers;
+  #fresh: Fresh[] = [];
+  #batches: Batch[] = [];
+  #sweepingFaces = 0;
+  #sweepingBytes = 0;
+  #consumed = 0;
+
+  /** `base` is what is drawn until the stream says otherwise; its bounds are replaced by those of the final mesh. */
+  constructor(layout: MeshEvent, base: BufferGeometry, bounds: Box3) {
+    this.#attributes = layout.attributes.map((attribute) => allocate(attribute, layout.vertices));
+    layout.attributes.forEach(({ semantic }, i) => {
+      const name = ATTRIBUTE_NAMES[semantic];
+      this.geometry.setAttribute(name, this.#attributes[i]!);
+      const source = base.getAttribute(name);
+      if (source !== undefined) copyElements(source as BufferAttribute, this.#attributes[i]!);
+    });
+    this.#index = new HalfBuffers(3 * layout.faces);
+    const baseIndices = base.index?.array ?? Uint32Array.from({ length: base.getAttribute('position').count }, (_, i) => i);
+    this.#index.initialise(baseIndices);
+    this.geometry.setIndex(this.#index.attribute);
+    this.geometry.setDrawRange(0, baseIndices.length);
+    this.geometry.boundingBox = bounds.clone();
+    this.geometry.boundingSphere = bounds.getBoundingSphere(new Sphere());
+  }
+
+  get pending(): boolean {
+    return this.#fresh.length > 0 || this.#index.sweeping || this.#batches[0]?.whole === true;
+  }
+
+  receive(event: RangeEvent | DrawEvent): void {
+    if (event.type === 'draw') this.#close(event.faces);
+    else if (event.buffer === INDICES) this.#openBatch().ranges.push(event);
+    else this.#receiveVertices(event);
+  }
+
+  advance(budget: UploadBudget): boolean {
+    this.#advanceVertices(budget);
+    if (this.#fresh.length > 0) return false;
+    if (!this.#index.sweeping && !this.#beginSweep()) return false;
+    if (!this.#index.advance(budget)) return false;
+    this.geometry.setDrawRange(this.#index.start, 3 * this.#sweepingFaces);
+    this.#consumed += this.#sweepingBytes;
+    return true;
+  }
+
+  takeConsumed(): number {
+    const bytes = this.#consumed;
+    this.#consumed = 0;
+    return bytes;
+  }
+
+  dispose(): void {
+    this.geometry.dispose();
+  }
+
+  #receiveVertices(event: RangeEvent): void {
+    const attribute = this.#attributes[event.buffer]!;
+    const { buffer, byteOffset, BYTES_PER_ELEMENT } = attribute.array;
+    new Uint8Array(buffer, byteOffset).set(event.data, event.offset);
+    const begin = event.offset / BYTES_PER_ELEMENT;
+    this.#fresh.push({ attribute, begin, end: begin + event.data.length / BYTES_PER_ELEMENT });
+    this.#openBatch().bytes += event.data.length;
+  }
+
+  #openBatch(): Batch {
+    const last = this.#batches.at(-1);
+    if (last !== undefined && !last.whole) return last;
+    const batch: Batch = { ranges: [], bytes: 0, faces: 0, whole: false };
+    this.#batches.push(batch);
+    return batch;
+  }
+
+  #close(faces: number): void {
+    const batch = this.#openBatch();
+    batch.faces = faces;
+    batch.whole = true;
+  }
+
+  #advanceVertices(budget: UploadBudget): void {
+    while (this.#fresh.length > 0) {
+      const { attribute, begin, end } = this.#fresh[0]!;
+      const size = attribute.array.BYTES_PER_ELEMENT;
+      const count = Math.min(end - begin, Math.floor(budget.left / size));
+      if (count === 0 || !budget.take(count * size)) return;
+      attribute.addUpdateRange(begin, count);
+      attribute.needsUpdate = true;
+      if (begin + count === end) this.#fresh.shift();
+      else this.#fresh[0]!.begin += count;
+    }
+  }
+
+  /** Puts all whole batches into the hidden half of the indices. */
+  #beginSweep(): boolean {
+    const open = this.#batches.findIndex((batch) => !batch.whole);
+    const batches = this.#batches.splice(0, open === -1 ? this.#batches.length : open);
+    if (batches.length === 0) return false;
+    this.#index.begin();
+    this.#sweepingBytes = 0;
+    for (const batch of batches) {
+      this.#sweepingFaces = batch.faces;
+      this.#sweepingBytes += batch.bytes;
+      for (const { offset, data } of batch.ranges) {
+        this.#index.write(offset / 4, new Uint32Array(data.buffer, data.byteOffset, data.length / 4));
+        this.#sweepingBytes += data.length;
+      }
+    }
+    return true;
+  }
+}
+
+function allocate(layout: AttributeLayout, vertices: number): BufferAttribute {
+  const ArrayType = COMPONENT_ARRAYS[layout.component];
+  const itemSize = layout.stride / ArrayType.BYTES_PER_ELEMENT;
+  return new BufferAttribute(new ArrayType(vertices * itemSize) as TypedArray, itemSize, layout.normalized);
+}
+
+/** Copies as many elements as both have, whatever the types of their numbers. */
+function copyElements(from: BufferAttribute, to: BufferAttribute): void {
+  const count = Math.min(from.count, to.count);
+  const components = Math.min(from.itemSize, to.itemSize);
+  for (let i = 0; i < count; i++) for (let c = 0; c < components; c++) to.setComponent(i, c, from.getComponent(i, c));
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+import { type BufferGeometry, type LoadingManager, Mesh, type Object3D, type Texture } from 'three';
+import { type GLTF, GLTFLoader, type GLTFParser } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import type { PackExtensions, ProgressiveMeshExtension, ProgressiveTextureExtension } from './extensions.js';
+
+/** A primitive that a stream refines: the meshes that show it, one for each node. */
+export interface ProgressivePrimitive {
+  extension: ProgressiveMeshExtension;
+  meshes: Mesh[];
+  base: BufferGeometry;
+}
+
+/** An image that a stream refines: the textures that show it. */
+export interface ProgressiveImage {
+  extension: ProgressiveTextureExtension;
+  textures: Texture[];
+}
+
+/** What three.js's own loader makes of a pack's opening, with what Lightwell's streams will refine. */
+export interface Opening {
+  gltf: GLTF;
+  extensions: PackExtensions;
+  primitives: Map<number, ProgressivePrimitive>;
+  images: Map<number, ProgressiveImage>;
+  /** The objects of a glTF node. */
+  objectsOf(node: number): Object3D[];
+}
+
+/** Reads an opening. Its punctual lights are left out where LIGHTWELL_lamps lists them. */
+export async function readOpening(glb: ArrayBuffer, manager: LoadingManager): Promise<Opening> {
+  const loader = new GLTFLoader(manager);
+  let hasLamps = false;
+  loader.register((parser) => {
+    hasLamps = extensionsOf(parser).LIGHTWELL_lamps !== undefined;
+    return { name: hasLamps ? 'KHR_lights_punctual' : 'LIGHTWELL_lamps' };
+  });
+  const gltf = await loader.parseAsync(glb, '');
+  return {
+    gltf,
+    extensions: extensionsOf(gltf.parser),
+    primitives: progressivePrimitives(gltf),
+    images: progressiveImages(gltf),
+    objectsOf: (node) => associated(gltf, (at) => at.nodes === node),
+  };
+}
+
+function extensionsOf(parser: GLTFParser): PackExtensions {
+  return (parser.json as { extensions?: PackExtensions }).extensions ?? {};
+}
+
+function associated(gltf: GLTF, wanted: (at: { nodes?: number }) => boolean): Object3D[] {
+  const found: Object3D[] = [];
+  gltf.scene.traverse((object) => {
+    if (wanted(gltf.parser.associations.get(object) ?? {})) found.push(object);
+  });
+  return found;
+}
+
+function progressivePrimitives(gltf: GLTF): Map<number, ProgressivePrimitive> {
+  const definitions = gltf.parser.json as { meshes?: { primitives: { extensions?: Record<string, unknown> }[] }[] };
+  const primitives = new Map<number, ProgressivePrimitive>();
+  gltf.scene.traverse((object) => {
+    if (!(object instanceof Mesh)) return;
+    const at = gltf.parser.associations.get(object) as { meshes?: number; primitives?: number } | undefined;
+    const definition = definitions.meshes?.[at?.meshes ?? -1]?.primitives[at?.primitives ?? 0];
+    const extension = definition?.extensions?.['LIGHTWELL_progressive_mesh'] as ProgressiveMeshExtension | undefined;
+    if (extension === undefined) return;
+    const known = primitives.get(extension.stream);
+    if (known !== undefined) known.meshes.push(object);
+    else primitives.set(extension.stream, { extension, meshes: [object], base: object.geometry as BufferGeometry });
+  });
+  return primitives;
+}
+
+function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
+  const definitions = gltf.parser.json as { textures?: { extensions?: Record<string, unknown> }[] };
+  const images = new Map<number, ProgressiveImage>();
+  for (const texture of texturesOf(gltf.scene)) {
+    const at = gltf.parser.associations.get(texture) as { textures?: number } | undefined;
+    const extension = definitions.textures?.[at?.textures ?? -1]?.extensions?.['LIGHTWELL_progressive_texture'] as
+      | ProgressiveTextureExtension
+      | undefined;
+    if (extension === undefined) continue;
+    const known = images.get(extension.stream);
+    if (known !== undefined) known.textures.push(texture);
+    else images.set(extension.stream, { extension, textures: [texture] });
+  }
+  return images;
+}
+
+/** The textures of an object's materials, each once. */
+export function texturesOf(root: Object3D): Set<Texture> {
+  const textures = new Set<Texture>();
+  root.traverse((object) => {
+    if (!(object instanceof Mesh)) return;
+    for (const material of [object.material].flat())
+      for (const value of Object.values(material)) if ((value as Texture | null)?.isTexture === true) textures.add(value as Texture);
+  });
+  return textures;
+}
+
+/** The most maps that one of an object's materials has. */
+export function mostMaps(root: Object3D): number {
+  let most = 0;
+  root.traverse((object) => {
+    if (!(object instanceof Mesh)) return;
+    for (const material of [object.material].flat()) {
+      const maps = Object.values(material).filter((value) => (value as Texture | null)?.isTexture === true);
+      most = Math.max(most, maps.length);
+    }
+  });
+  return most;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { UploadBudget } from './upload_budget.js';
+
+/** Something that streams into buffers or textures which have their final sizes from the start. */
+export interface Refinement {
+  /** Hands over what the budget allows, right before a frame. True when the picture changes by it. */
+  advance(budget: UploadBudget): boolean;
+  /** Whether there is something to hand over. */
+  readonly pending: boolean;
+  /** Bytes of updates done with since the last call. */
+  takeConsumed(): number;
+  dispose(): void;
+}

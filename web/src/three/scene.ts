@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+import {
+  Box3,
+  type Camera,
+  DirectionalLight,
+  DoubleSide,
+  Group,
+  type Material,
+  Mesh,
+  type Object3DEventMap,
+  SpotLight,
+  Vector3,
+  type WebGLRenderer,
+} from 'three';
+import type { PackConnection } from '../core/connection.js';
+import type { ConnectionEvent, FailureEvent, MeshEvent, PackEvent, Progress, Strategy } from '../core/protocol.js';
+import { LightwellLight } from './light.js';
+import { LightRefinement } from './light_refinement.js';
+import { createLamps, type Lamp } from './lamps.js';
+import { MeshRefinement } from './mesh_refinement.js';
+import { mostMaps, type Opening } from './opening.js';
+import type { Refinement } from './refinement.js';
+import { TextureRefinement } from './texture_refinement.js';
+import { UploadBudget } from './upload_budget.js';
+import { meshWeights } from './view_weights.js';
+
+export interface LightwellSceneEventMap extends Object3DEventMap {
+  /** The picture changes with the next frame: where frames are drawn on demand, draw one. */
+  change: object;
+  progress: { progress: Progress };
+  connection: { state: ConnectionEvent['state'] };
+  /** Everything has come and has reached the GPU. */
+  complete: object;
+  failure: { reason: FailureEvent['reason']; message: string };
+}
+
+export interface SceneOptions {
+  /** Let ambient occlusion maps darken the light of the grid, which holds the occlusion of all that was baked already. */
+  ambientOcclusion?: boolean;
+}
+
+/**
+ * A pack in a three.js scene. It refines itself while it is rendered: before each frame at most 256 KB go to the GPU, into
+ * buffers and textures that have their final sizes from the start. It may be moved, turned and scaled; its light follows.
+ */
+export class LightwellScene extends Group<LightwellSceneEventMap> {
+  /** The baked light. Objects of the user's own within its bounds are lit by it. */
+  readonly grids: LightwellLight[];
+  /** The lamps that shine directly. */
+  readonly lamps: Lamp[];
+  readonly opening: Opening;
+  /** Stops of exposure that the baker chose. */
+  readonly exposure: number;
+  /** The final bounds of the pack's meshes, in the pack's space. */
+  readonly bounds: Box3;
+  readonly #connection: PackConnection;
+  readonly #renderer: WebGLRenderer;
+  readonly #meshes = new Map<number, MeshRefinement>();
+  readonly #images: Map<number, TextureRefinement>;
+  readonly #lights = new Map<number, LightRefinement>();
+  #frame = -1;
+  #received = false;
+  #complete = false;
+
+  private constructor(
+    opening: Opening,
+    images: Map<number, TextureRefinement>,
+    connection: PackConnection,
+    renderer: WebGLRenderer,
+    options: SceneOptions,
+  ) {
+    super();
+    this.opening = opening;
+    this.#images = images;
+    this.#connection = connection;
+    this.#renderer = renderer;
+    this.add(opening.gltf.scene);
+    prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
+    this.bounds = finalBounds(opening);
+    this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
+    this.grids = (opening.extensions.LIGHTWELL_light_grids?.grids ?? []).map((grid) => new LightwellLight(grid));
+    for (const grid of this.grids) this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer));
+    this.lamps = this.#createLamps();
+    this.add(...this.grids, ...this.lamps);
+  }
+
+  /** Prepares what the loader read; events of the connection go to `receive` from then on. */
+  static async create(opening: Opening, connection: PackConnection, renderer: WebGLRenderer, options: SceneOptions) {
+    const images = new Map<number, TextureRefinement>();
+    for (const [stream, { extension, textures }] of opening.images)
+      images.set(stream, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
+    return new LightwellScene(opening, images, connection, renderer, options);
+  }
+
+  setStrategy(strategy: Strategy): void {
+    this.#connection.setStrategy(strategy);
+  }
+
+  /** Asks for no more until `resume`. */
+  pause(): void {
+    this.#connection.pause();
+  }
+
+  resume(): void {
+    this.#connection.resume();
+  }
+
+  /** Lets what this camera sees largest come first. Call it when the view has changed much, not each frame. */
+  setView(camera: Camera, heightInPixels: number): void {
+    this.#connection.setWeights(meshWeights(this.opening.primitives, camera, heightInPixels));
+  }
+
+  /** Ends the streaming and gives back what the GPU holds. */
+  override dispose(): void {
+    super.dispose();
+    this.#connection.close();
+    for (const refinement of this.#refinements()) refinement.dispose();
+    for (const lamp of this.lamps) lamp.dispose();
+    this.opening.gltf.scene.traverse((object) => {
+      if (object instanceof Mesh) [object.material].flat().forEach((material: Material) => material.dispose());
+    });
+  }
+
+  /** What the connection says; the loader passes it on. */
+  receive(event: PackEvent): void {
+    switch (event.type) {
+      case 'mesh':
+        return this.#startMesh(event);
+      case 'range':
+      case 'draw':
+        this.#meshes.get(event.stream)?.receive(event);
+        return this.#changed();
+      case 'light':
+        this.#lights.get(event.stream)?.receive(event);
+        return this.#changed();
+      case 'texture':
+        return void this.#images.get(event.stream)?.receive(event, () => this.#changed());
+      case 'progress':
+        return void this.dispatchEvent({ type: 'progress', progress: event.progress });
+      case 'connection':
+        this.#received = event.state === 'complete';
+        this.dispatchEvent({ type: 'connection', state: event.state });
+        return this.#changed();
+      case 'failure':
+        return void this.dispatchEvent({ type: 'failure', reason: event.reason, message: event.message });
+      case 'opening':
+        return;
+    }
+  }
+
+  /** Right before a frame, when three.js brings the scene's matrices up to date, comes what streams in. */
+  override updateMatrixWorld(force?: boolean): void {
+    super.updateMatrixWorld(force);
+    const frame = this.#renderer.info.render.frame;
+    if (frame === this.#frame) return;
+    this.#frame = frame;
+    this.#refine();
+  }
+
+  #refine(): void {
+    const budget = new UploadBudget();
+    let consumed = 0;
+    let pending = false;
+    for (const refinement of this.#refinements()) {
+      refinement.advance(budget);
+      consumed += refinement.takeConsumed();
+      pending ||= refinement.pending;
+    }
+    if (consumed > 0) this.#connection.consumed(consumed);
+    if (pending) this.#changed();
+    else if (this.#received && !this.#complete) {
+      this.#complete = true;
+      this.dispatchEvent({ type: 'complete' });
+    }
+  }
+
+  /** In the order in which they share a frame's bytes: light is small and seen everywhere. */
+  *#refinements(): Generator<Refinement> {
+    yield* this.#lights.values();
+    yield* this.#meshes.values();
+    yield* this.#images.values();
+  }
+
+  #startMesh(layout: MeshEvent): void {
+    const primitive = this.opening.primitives.get(layout.stream);
+    if (primitive === undefined) return;
+    const { min, max } = primitive.extension.bounds;
+    const bounds = new Box3(new Vector3(...min), new Vector3(...max));
+    const refinement = new MeshRefinement(layout, primitive.base, bounds);
+    for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
+    primitive.base.dispose();
+    this.#meshes.set(layout.stream, refinement);
+    this.#changed();
+  }
+
+  #createLamps(): Lamp[] {
+    const definitions = this.opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
+    for (const { node } of definitions)
+      if (node !== undefined)
+        for (const object of this.opening.objectsOf(node)) object.traverse((part) => (part.castShadow = false));
+    const lamps = createLamps(definitions, this.bounds, mostMaps(this.opening.gltf.scene));
+    for (const lamp of lamps)
+      if (lamp instanceof SpotLight || lamp instanceof DirectionalLight) this.add(lamp.target);
+    return lamps;
+  }
+
+  #changed(): void {
+    this.dispatchEvent({ type: 'change' });
+  }
+}
+
+/** Surfaces cast and take shadows on both sides, as in the bake. */
+function prepareMeshes(root: Group, ambientOcclusion: boolean): void {
+  root.traverse((object) => {
+    if (!(object instanceof Mesh)) return;
+    object.castShadow = object.receiveShadow = true;
+    for (const material of [object.material].flat() as (Material & { aoMapIntensity?: number })[]) {
+      material.shadowSide = DoubleSide;
+      if (!ambientOcclusion && material.aoMapIntensity !== undefined) material.aoMapIntensity = 0;
+    }
+  });
+}
+
+/** The box of all meshes at their finest: the coarse ones may be smaller. */
+function finalBounds(opening: Opening): Box3 {
+  opening.gltf.scene.updateMatrixWorld(true);
+  const bounds = new Box3().setFromObject(opening.gltf.scene);
+  for (const { extension, meshes } of opening.primitives.values()) {
+    const box = new Box3(new Vector3(...extension.bounds.min), new Vector3(...extension.bounds.max));
+    for (const mesh of meshes) bounds.union(box.clone().applyMatrix4(mesh.matrixWorld));
+  }
+  return bounds;
+}
