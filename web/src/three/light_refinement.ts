@@ -66,6 +66,10 @@ export class LightRefinement implements Refinement {
     return bytes;
   }
 
+  restart(): void {
+    this.#next = 0;
+  }
+
   dispose(): void {
     this.#light.dispose();
   }

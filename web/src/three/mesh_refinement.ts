@@ -94,6 +94,9 @@ export class MeshRefinement implements Refinement {
     return bytes;
   }
 
+  /** three.js hands the whole buffers over anew. */
+  restart(): void {}
+
   dispose(): void {
     this.geometry.dispose();
   }

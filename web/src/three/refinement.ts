@@ -9,5 +9,7 @@ export interface Refinement {
   readonly pending: boolean;
   /** Bytes of updates done with since the last call. */
   takeConsumed(): number;
+  /** Begins again with what was only partly handed over, since the GPU has lost it. */
+  restart(): void;
   dispose(): void;
 }

@@ -27,6 +27,8 @@ import { meshWeights } from './view_weights.js';
 export interface LightwellSceneEventMap extends Object3DEventMap {
   /** The picture changes with the next frame: where frames are drawn on demand, draw one. */
   change: object;
+  /** Meshes have more faces from this frame on: shadows drawn on demand are to be drawn anew. */
+  geometry: object;
   progress: { progress: Progress };
   connection: { state: ConnectionEvent['state'] };
   /** Everything has come and has reached the GPU. */
@@ -74,6 +76,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#images = images;
     this.#connection = connection;
     this.#renderer = renderer;
+    renderer.domElement.addEventListener('webglcontextrestored', this.#restart);
     this.add(opening.gltf.scene);
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
     this.bounds = finalBounds(opening);
@@ -114,12 +117,18 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   override dispose(): void {
     super.dispose();
     this.#connection.close();
+    this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     for (const lamp of this.lamps) lamp.dispose();
     this.opening.gltf.scene.traverse((object) => {
       if (object instanceof Mesh) [object.material].flat().forEach((material: Material) => material.dispose());
     });
   }
+
+  /** What was on its way to a GPU that lost everything goes there again. */
+  readonly #restart = (): void => {
+    for (const refinement of this.#refinements()) refinement.restart();
+  };
 
   /** What the connection says; the loader passes it on. */
   receive(event: PackEvent): void {
@@ -162,7 +171,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     let consumed = 0;
     let pending = false;
     for (const refinement of this.#refinements()) {
-      refinement.advance(budget);
+      const changed = refinement.advance(budget);
+      if (changed && refinement instanceof MeshRefinement) this.dispatchEvent({ type: 'geometry' });
       consumed += refinement.takeConsumed();
       pending ||= refinement.pending;
     }

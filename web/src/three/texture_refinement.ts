@@ -78,6 +78,10 @@ export class TextureRefinement implements Refinement {
     return bytes;
   }
 
+  restart(): void {
+    if (this.pending) this.#row = 0;
+  }
+
   dispose(): void {
     this.#disposed = true;
     this.#image?.close();

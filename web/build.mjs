@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Builds dist/: the package (core.js, three.js, element.js, with three.js left to its user), the worker, the page and, when
+// its path is given, lightwell.wasm:   node build.mjs [WASM]
+import { spawnSync } from 'node:child_process';
+import { copyFile, mkdir, readFile, rm } from 'node:fs/promises';
+import { build } from 'esbuild';
+
+const common = {
+  bundle: true,
+  format: 'esm',
+  target: 'es2022',
+  minify: true,
+  outdir: 'dist',
+  legalComments: 'none',
+  logLevel: 'warning',
+};
+
+/** Shader text without comments, empty lines and indentation; preprocessor lines stay lines of their own. */
+const glsl = {
+  name: 'glsl',
+  setup(builder) {
+    builder.onLoad({ filter: /\.glsl$/ }, async ({ path }) => {
+      const lines = (await readFile(path, 'utf8')).split('\n').map((line) => line.replace(/\/\/.*$/, '').trim());
+      return { contents: `\n${lines.filter(Boolean).join('\n')}\n`, loader: 'text' };
+    });
+  },
+};
+
+process.chdir(import.meta.dirname);
+await rm('dist', { recursive: true, force: true });
+await mkdir('dist');
+const plugins = [glsl];
+await Promise.all([
+  build({
+    ...common,
+    plugins,
+    entryPoints: { core: 'src/core/index.ts', three: 'src/three/index.ts', element: 'src/element/index.ts' },
+    external: ['three', 'three/*'],
+    splitting: true,
+  }),
+  build({ ...common, entryPoints: { worker: 'src/core/worker.ts' } }),
+  build({ ...common, plugins, entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' } }),
+  copyFile('src/page/index.html', 'dist/index.html'),
+]);
+const wasm = process.argv[2];
+if (wasm !== undefined) await copyFile(wasm, 'dist/lightwell.wasm');
+
+const types = ['--project', '.', '--noEmit', 'false', '--emitDeclarationOnly', '--declaration', '--outDir', 'dist/types'];
+const { status } = spawnSync('node_modules/.bin/tsc', types, { stdio: 'inherit' });
+process.exit(status ?? 1);

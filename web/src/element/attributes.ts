@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+
+const UNITS: Record<string, number> = { '': 1, deg: Math.PI / 180, rad: 1, m: 1, cm: 0.01, mm: 0.001 };
+
+/** A number with one of the units, or without one: "30deg", "1.5m", "0.5rad". Angles in radians. Null if it is none. */
+export function parseQuantity(text: string): number | null {
+  const match = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(deg|rad|cm|mm|m)?$/i.exec(text.trim());
+  if (match === null) return null;
+  return Number(match[1]) * UNITS[(match[2] ?? '').toLowerCase()]!;
+}
+
+/** Three quantities between spaces; null if there are not three. */
+export function parseTriple(text: string | null): [number, number, number] | null {
+  const parts = text?.trim().split(/\s+/).map(parseQuantity) ?? [];
+  return parts.length === 3 && parts.every((part) => part !== null) ? (parts as [number, number, number]) : null;
+}
+
+/** One of the words, the first of them for anything else. */
+export function parseWord<Word extends string>(text: string | null, words: readonly [Word, ...Word[]]): Word {
+  return words.find((word) => word === text) ?? words[0];
+}

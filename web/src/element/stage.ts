@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+import { LinearToneMapping, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+
+export type Tone = 'neutral' | 'none';
+
+/** Shadows are drawn anew at most this often while geometry streams in, in milliseconds. */
+const SHADOW_INTERVAL = 250;
+/** Pixels of the canvas for each of the page's, at most. */
+const MOST_PIXEL_RATIO = 2;
+/** Frames further apart than this are not one animation, in milliseconds. */
+const PAUSE = 250;
+
+/** A canvas with renderer, scene and camera that draws a frame only when one is asked for. */
+export class Stage {
+  readonly canvas = document.createElement('canvas');
+  readonly renderer: WebGLRenderer;
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera();
+  /** Called before a frame is drawn, with the time since the last one in seconds. */
+  beforeFrame: (seconds: number) => void = () => {};
+  afterFrame: () => void = () => {};
+  /** The vertical field of view of a canvas that is at least as wide as high, in degrees. */
+  fieldOfView = 45;
+  #request = 0;
+  #running = true;
+  #lastFrame = -Infinity;
+  #interval = Infinity;
+  #shadowTime = -Infinity;
+  #shadowTimer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor() {
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, alpha: true, antialias: true });
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.shadowMap.autoUpdate = false;
+    this.canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
+    this.canvas.addEventListener('webglcontextrestored', () => this.invalidateShadows());
+    this.setTone('neutral');
+  }
+
+  /** Frames a second of the present animation, 0 while nothing moves. */
+  get frameRate(): number {
+    return performance.now() - this.#lastFrame > PAUSE ? 0 : 1000 / this.#interval;
+  }
+
+  setTone(tone: Tone): void {
+    this.renderer.toneMapping = tone === 'neutral' ? NeutralToneMapping : LinearToneMapping;
+    this.invalidate();
+  }
+
+  /** In stops. */
+  setExposure(stops: number): void {
+    this.renderer.toneMappingExposure = 2 ** stops;
+    this.invalidate();
+  }
+
+  /** Fits the canvas to its place on the page, and the view to the canvas: what is seen across does not shrink on a phone. */
+  resize(width: number, height: number): void {
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    const slope = Math.tan((this.fieldOfView * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    this.camera.fov = (Math.atan(slope) * 360) / Math.PI;
+    this.camera.updateProjectionMatrix();
+    this.draw(performance.now());
+  }
+
+  /** Asks for a frame. */
+  invalidate(): void {
+    if (this.#running && this.#request === 0) this.#request = requestAnimationFrame((time) => this.draw(time));
+  }
+
+  /** The next frame shows what moved in its shadows too; at most four times a second. */
+  invalidateShadows(): void {
+    clearTimeout(this.#shadowTimer);
+    const wait = this.#shadowTime + SHADOW_INTERVAL - performance.now();
+    if (wait > 0) {
+      this.#shadowTimer = setTimeout(() => this.invalidateShadows(), wait);
+      return;
+    }
+    this.#shadowTime = performance.now();
+    this.renderer.shadowMap.needsUpdate = true;
+    this.invalidate();
+  }
+
+  /** While stopped no frame is drawn, whoever asks. */
+  setRunning(running: boolean): void {
+    this.#running = running;
+    if (running) return this.invalidate();
+    cancelAnimationFrame(this.#request);
+    this.#request = 0;
+  }
+
+  draw(time: number): void {
+    cancelAnimationFrame(this.#request);
+    this.#request = 0;
+    const interval = time - this.#lastFrame;
+    this.#interval = interval > PAUSE || this.#interval === Infinity ? interval : 0.9 * this.#interval + 0.1 * interval;
+    this.#lastFrame = time;
+    this.beforeFrame(Math.min(interval, PAUSE) / 1000);
+    this.renderer.render(this.scene, this.camera);
+    this.afterFrame();
+  }
+
+  dispose(): void {
+    this.setRunning(false);
+    clearTimeout(this.#shadowTimer);
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
+  }
+}
