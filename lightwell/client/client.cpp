@@ -179,6 +179,7 @@ std::optional<Update> Client::take(size_t budget) { return machine_->take(budget
 double Client::wake(double now) const { return machine_->requests().wake(now); }
 
 void Client::set_weight(uint32_t stream, float weight) { machine_->set_weight(stream, weight); }
+void Client::set_strategy(Strategy strategy) { machine_->requests().set_strategy(strategy); }
 
 ClientProgress Client::progress() const { return machine_->progress(); }
 

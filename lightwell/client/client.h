@@ -69,6 +69,8 @@ class Client {
   /// pixels a metre times the share of the picture that the object covers; light: the visible share of the grid. 0 puts
   /// it last.
   void set_weight(uint32_t stream, float weight);
+  /// Takes another strategy from the next request on.
+  void set_strategy(Strategy strategy);
 
   ClientProgress progress() const;
   /// True when everything has been handed over, or nothing more will be.

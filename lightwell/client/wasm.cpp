@@ -32,6 +32,10 @@ std::string_view input_text(uint32_t begin, uint32_t length) {
   return {reinterpret_cast<const char*>(input.data()) + begin, length};
 }
 
+Strategy strategy_of(uint32_t number) {
+  return static_cast<Strategy>(std::min(number, static_cast<uint32_t>(Strategy::light)));
+}
+
 uint32_t word_of(const AttributeLayout& layout) {
   return static_cast<uint32_t>(layout.semantic) | static_cast<uint32_t>(layout.component) << 8 |
          uint32_t(layout.components) << 16 | uint32_t(layout.stride) << 20 | uint32_t(layout.normalized) << 31;
@@ -74,7 +78,7 @@ uint32_t LW_EXPORT(lw_abi_version)() { return abi_version; }
 
 uint32_t LW_EXPORT(lw_create)(uint32_t strategy, uint32_t fill, uint32_t seed) {
   ClientOptions options;
-  options.strategy = static_cast<Strategy>(std::min(strategy, static_cast<uint32_t>(Strategy::light)));
+  options.strategy = strategy_of(strategy);
   options.fill = static_cast<Fill>(std::min(fill, static_cast<uint32_t>(Fill::push_pull_smooth)));
   options.seed = seed;
   return address(new Client(options));
@@ -122,6 +126,10 @@ uint32_t LW_EXPORT(lw_take)(uint32_t client, uint32_t budget) {
 
 void LW_EXPORT(lw_set_weight)(uint32_t client, uint32_t stream, float weight) {
   client_of(client).set_weight(stream, weight);
+}
+
+void LW_EXPORT(lw_set_strategy)(uint32_t client, uint32_t strategy) {
+  client_of(client).set_strategy(strategy_of(strategy));
 }
 
 void LW_EXPORT(lw_progress)(uint32_t client) {

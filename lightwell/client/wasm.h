@@ -58,6 +58,8 @@ uint32_t lw_take(uint32_t client, uint32_t budget);
 
 /// How much a stream matters to the present picture (Client::set_weight).
 void lw_set_weight(uint32_t client, uint32_t stream, float weight);
+/// Takes another strategy, numbered as for lw_create, from the next request on.
+void lw_set_strategy(uint32_t client, uint32_t strategy);
 
 /// Progress. Byte counts are below 4 GiB:
 ///   [0] bytes, [1] of, [2] geometry bytes, [3] of, [4] light bytes, [5] of, [6] faces, [7] of, [8] nodes, [9] of, [10]
