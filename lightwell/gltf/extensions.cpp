@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/gltf/extensions.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
+namespace lightwell {
+namespace {
+
+constexpr std::array known = std::to_array<std::string_view>({
+    // Read here or by the scene's import.
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+    // Kept as they are.
+    "EXT_texture_avif",
+    "KHR_animation_pointer",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_node_visibility",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+});
+
+bool is_known(std::string_view name) {
+  return std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("LIGHTWELL_");
+}
+
+/// Collects the names of removed extensions. Extras may hold anything and are left alone.
+void drop_unknown(Json& json, std::set<std::string>& dropped) {
+  if (json.is_array())
+    for (Json& value : json) drop_unknown(value, dropped);
+  if (!json.is_object()) return;
+  if (const auto extensions = json.find("extensions"); extensions != json.end() && extensions->is_object()) {
+    Json kept = Json::object();
+    for (auto& [name, value] : extensions->items()) {
+      if (is_known(name))
+        kept[name] = std::move(value);
+      else
+        dropped.insert(name);
+    }
+    if (kept.empty())
+      json.erase("extensions");
+    else
+      *extensions = std::move(kept);
+  }
+  for (auto& [name, value] : json.items())
+    if (name != "extras") drop_unknown(value, dropped);
+}
+
+}  // namespace
+
+Result<void> check_required_extensions(const Json& json) {
+  for (const Json& name : member(json, "extensionsRequired"))
+    if (name.is_string() && !is_known(name.get<std::string>()))
+      return fail("extensionsRequired", name.get<std::string>().substr(0, 80) + " is not supported");
+  return {};
+}
+
+void drop_unknown_extensions(Json& json, Report& report) {
+  std::set<std::string> dropped;
+  drop_unknown(json, dropped);
+  for (const Json& name : member(json, "extensionsUsed"))
+    if (name.is_string() && !is_known(name.get<std::string>())) dropped.insert(name.get<std::string>());
+  std::string names;
+  for (const std::string& name : dropped) {
+    forget_extension(json, name);
+    if (names.size() < 400) names += (names.empty() ? "" : ", ") + name.substr(0, 80);
+  }
+  if (!dropped.empty()) report.warn("extensions left out, not supported: " + names);
+}
+
+void forget_extension(Json& json, std::string_view name) {
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    if (!member(json, list).is_array()) continue;
+    Json kept = Json::array();
+    for (const Json& entry : json[list])
+      if (entry != name) kept.push_back(entry);
+    if (kept.empty())
+      json.erase(list);
+    else
+      json[list] = std::move(kept);
+  }
+}
+
+}  // namespace lightwell

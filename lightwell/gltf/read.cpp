@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "lightwell/gltf/check.h"
+#include "lightwell/gltf/document.h"
+#include "lightwell/gltf/expand.h"
+#include "lightwell/gltf/extensions.h"
+#include "lightwell/gltf/resource.h"
+
+namespace lightwell {
+namespace {
+
+constexpr uint32_t glb_magic = 0x46546c67;   // "glTF"
+constexpr uint32_t json_chunk = 0x4e4f534a;  // "JSON"
+constexpr uint32_t bin_chunk = 0x004e4942;   // "BIN"
+
+/// The largest sum of all buffers, which is also the most that one GLB can hold.
+constexpr double max_bytes = 0x1p32;
+
+/// The two parts that glTF gives a GLB a meaning for.
+struct Chunks {
+  Bytes json;
+  Bytes bin;
+  bool has_bin = false;
+};
+
+bool is_glb(Bytes bytes) { return ByteReader(bytes).u32() == glb_magic; }
+
+Result<Bytes> next_chunk(ByteReader& reader, uint32_t& type, const std::string& name) {
+  const uint32_t length = reader.u32();
+  type = reader.u32();
+  const Bytes chunk = reader.take(length);
+  if (!reader.ok()) return fail(name, "is longer than the file");
+  return chunk;
+}
+
+/// The length that a GLB's header gives bounds its chunks; bytes after it are none of ours.
+Result<Bytes> glb_body(Bytes bytes, Report& report) {
+  ByteReader reader(bytes);
+  reader.u32();
+  const uint32_t version = reader.u32(), length = reader.u32();
+  if (!reader.ok()) return fail("GLB header", "the file ends too early");
+  if (version != 2) return fail("GLB header", "version " + std::to_string(version) + " is not supported, only 2");
+  if (length > bytes.size())
+    return fail("GLB header",
+                "announces " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()));
+  if (length < 12) return fail("GLB header", "announces less than its own length");
+  if (length < bytes.size()) report.warn("bytes after the end of the GLB are ignored");
+  return bytes.subspan(12, length - 12);
+}
+
+Result<Chunks> split_glb(Bytes bytes, Report& report) {
+  LW_TRY(body, glb_body(bytes, report));
+  ByteReader reader(body);
+  Chunks chunks;
+  for (int i = 0; reader.remaining() > 0; i++) {
+    const std::string name = element_name("chunks", static_cast<size_t>(i));
+    uint32_t type = 0;
+    LW_TRY(chunk, next_chunk(reader, type, name));
+    if (chunk.size() % 4 != 0) report.warn("GLB: the length of a chunk is not a multiple of 4");
+    if ((type == json_chunk) != (i == 0))
+      return fail(name, i == 0 ? "is not of type JSON" : "is a second chunk of type JSON");
+    if (type == bin_chunk && i != 1) return fail(name, "the chunk of type BIN is not the second one");
+    if (type == json_chunk) chunks.json = chunk;
+    if (type == bin_chunk) chunks.bin = chunk;
+    chunks.has_bin |= type == bin_chunk;
+  }
+  if (chunks.json.empty()) return fail("GLB", "has no JSON");
+  return chunks;
+}
+
+/// True for the stand-in of a buffer whose views are all compressed: it need not be read.
+bool is_fallback(const Json& buffer) {
+  return boolean(extension(buffer, "EXT_meshopt_compression"), "fallback", false) ||
+         boolean(extension(buffer, "KHR_meshopt_compression"), "fallback", false);
+}
+
+Result<std::vector<uint8_t>> read_buffer(const Document& document, size_t index, const Chunks& chunks) {
+  const Json& buffer = document.json["buffers"][index];
+  if (is_fallback(buffer)) return std::vector<uint8_t>();
+  if (member(buffer, "uri").is_string()) return read_uri(text(buffer, "uri"), document.folder);
+  if (index == 0 && chunks.has_bin) return std::vector<uint8_t>(chunks.bin.begin(), chunks.bin.end());
+  return std::vector<uint8_t>();  // a stand-in without the mark; see check_stand_ins
+}
+
+Result<void> read_buffers(Document& document, const Chunks& chunks) {
+  double total = 0;
+  for (size_t i = 0; i < member(document.json, "buffers").size(); i++) {
+    Json& json = document.json["buffers"][i];
+    const std::string name = element_name("buffers", i);
+    auto bytes = read_buffer(document, i, chunks);
+    if (!bytes) return fail(Error{"", name, bytes.error().message()});
+    const auto length = static_cast<size_t>(number(json, "byteLength", 0));
+    if (!bytes->empty() && bytes->size() < length)
+      return fail(name, "byteLength is " + std::to_string(length) + ", but it holds " + std::to_string(bytes->size()) +
+                            " bytes");
+    bytes->resize(std::min(bytes->size(), length));
+    total += static_cast<double>(length);
+    if (total > max_bytes) return fail("buffers", "hold more than 4 GiB");
+    json.erase("uri");
+    document.buffers.push_back(std::move(*bytes));
+  }
+  return {};
+}
+
+/// Decodes what is compressed. The allowance is meshopt's largest ratio of 64, and enough for every small file.
+Result<void> expand(Document& document, size_t file_bytes) {
+  double bytes = static_cast<double>(file_bytes);
+  for (const auto& buffer : document.buffers) bytes += static_cast<double>(buffer.size());
+  Budget budget(std::min(max_bytes, 0x1p28 + 64 * bytes));
+  LW_CHECK(expand_meshopt(document, budget));
+  LW_CHECK(expand_draco(document, budget));
+  return expand_sparse(document, budget);
+}
+
+/// Once all views are decoded, a buffer without bytes that is still in use is a hole.
+Result<void> check_stand_ins(const Document& document) {
+  const Json& views = member(document.json, "bufferViews");
+  for (size_t i = 0; i < views.size(); i++) {
+    const auto buffer = static_cast<size_t>(index_of(views[i], "buffer"));
+    if (document.buffers[buffer].empty())
+      return fail(element_name("bufferViews", i),
+                  element_name("buffers", buffer) + " has neither a URI nor a BIN chunk");
+  }
+  return {};
+}
+
+}  // namespace
+
+bool is_gltf(Bytes bytes) {
+  if (is_glb(bytes)) return true;
+  constexpr uint8_t mark[] = {0xef, 0xbb, 0xbf};
+  if (bytes.size() >= 3 && std::equal(mark, mark + 3, bytes.begin())) bytes = bytes.subspan(3);
+  const auto first = std::find_if(bytes.begin(), bytes.end(), [](uint8_t c) { return c > ' '; });
+  return first != bytes.end() && *first == '{';
+}
+
+Result<Document> read_document(Bytes bytes, const std::filesystem::path& folder, Report& report) {
+  Chunks chunks{bytes, {}, false};
+  if (is_glb(bytes)) {
+    LW_TRY(split, split_glb(bytes, report));
+    chunks = split;
+  }
+  LW_TRY(json, parse_json(chunks.json));
+  LW_CHECK(check_version(json));
+  LW_CHECK(check_required_extensions(json));
+  drop_unknown_extensions(json, report);
+  LW_CHECK(check_document(json, report));
+  Document document{std::move(json), {}, folder};
+  LW_CHECK(read_buffers(document, chunks));
+  LW_CHECK(expand(document, bytes.size()));
+  drop_unused(document);
+  LW_CHECK(check_stand_ins(document));
+  return document;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <set>
+
+#include "lightwell/gltf/accessor.h"
+#include "lightwell/gltf/expand.h"
+
+namespace lightwell {
+namespace {
+
+/// Accessors that carry vertices, indices or instances.
+std::set<int> drawn_accessors(const Json& json) {
+  std::set<int> drawn;
+  for (const Json& mesh : member(json, "meshes"))
+    for (const Json& primitive : member(mesh, "primitives")) {
+      for (const Json& accessor : member(primitive, "attributes"))
+        drawn.insert(static_cast<int>(whole_number(accessor)));
+      drawn.insert(index_of(primitive, "indices"));
+    }
+  for (const Json& node : member(json, "nodes"))
+    for (const Json& accessor : member(extension(node, "EXT_mesh_gpu_instancing"), "attributes"))
+      drawn.insert(static_cast<int>(whole_number(accessor)));
+  drawn.erase(-1);
+  return drawn;
+}
+
+/// The accessor's elements without its sparse values, `stride` apart; zeros when it has no buffer view.
+Result<std::vector<uint8_t>> dense_elements(const Document& document, const Json& accessor, size_t count, size_t stride,
+                                            const std::string& name) {
+  std::vector<uint8_t> bytes(count * stride);
+  if (!accessor.contains("bufferView")) return bytes;
+  LW_TRY(base, locate_base(document, accessor, name));
+  for (size_t i = 0; i < count; i++) std::memcpy(&bytes[i * stride], &base.bytes[i * base.stride], base.type.size());
+  return bytes;
+}
+
+/// One half of accessor.sparse as an accessor of its own.
+Json part_accessor(const Json& part, const char* type, const Json& count) {
+  return {{"bufferView", part["bufferView"]},
+          {"byteOffset", number(part, "byteOffset", 0)},
+          {"componentType", part["componentType"]},
+          {"type", type},
+          {"count", count}};
+}
+
+/// Puts the sparse values into `elements`.
+Result<void> apply_sparse(const Document& document, const Json& accessor, std::vector<uint8_t>& elements, size_t stride,
+                          const std::string& name) {
+  const Json& sparse = accessor["sparse"];
+  Json values_part = sparse["values"];
+  values_part["componentType"] = accessor["componentType"];
+  const Json index_json = part_accessor(sparse["indices"], "SCALAR", sparse["count"]);
+  const Json value_json = part_accessor(values_part, text(accessor, "type").c_str(), sparse["count"]);
+  LW_TRY(indices, locate_base(document, index_json, name + ".sparse.indices"));
+  LW_TRY(values, locate_base(document, value_json, name + ".sparse.values"));
+  const std::vector<uint32_t> targets = widen_indices(indices);
+  for (size_t i = 0; i < targets.size(); i++) {
+    if (targets[i] >= elements.size() / stride)
+      return fail(name + ".sparse.indices", "an index is outside the accessor");
+    std::memcpy(&elements[targets[i] * stride], &values.bytes[i * values.stride], values.type.size());
+  }
+  return {};
+}
+
+Result<void> expand_accessor(Document& document, int index, Budget& budget) {
+  Json& accessor = document.json["accessors"][static_cast<size_t>(index)];
+  if (accessor.contains("bufferView") && !accessor.contains("sparse")) return {};
+  const std::string name = element_name("accessors", static_cast<size_t>(index));
+  const ElementType type = element_type(accessor);
+  const bool is_attribute = type.rows > 1;  // attributes begin at multiples of four bytes, indices are packed
+  const size_t stride = is_attribute ? (type.size() + 3) / 4 * 4 : type.size();
+  const double count = number(accessor, "count", 0);
+  LW_CHECK(budget.take(count * static_cast<double>(stride), name));
+  LW_TRY(elements, dense_elements(document, accessor, static_cast<size_t>(count), stride, name));
+  if (accessor.contains("sparse")) LW_CHECK(apply_sparse(document, accessor, elements, stride, name));
+  accessor.erase("sparse");
+  accessor.erase("byteOffset");
+  accessor["bufferView"] = append_buffer_view(document, std::move(elements), is_attribute ? stride : 0, 0);
+  return {};
+}
+
+}  // namespace
+
+Result<void> expand_sparse(Document& document, Budget& budget) {
+  for (const int accessor : drawn_accessors(document.json)) LW_CHECK(expand_accessor(document, accessor, budget));
+  return {};
+}
+
+}  // namespace lightwell

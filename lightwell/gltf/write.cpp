@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+
+#include "lightwell/base/assert.h"
+#include "lightwell/gltf/accessor.h"
+#include "lightwell/gltf/document.h"
+
+namespace lightwell {
+namespace {
+
+constexpr uint32_t glb_magic = 0x46546c67;   // "glTF"
+constexpr uint32_t json_chunk = 0x4e4f534a;  // "JSON"
+constexpr uint32_t bin_chunk = 0x004e4942;   // "BIN"
+
+/// A PNG of one white pixel.
+constexpr std::array<uint8_t, 67> white_png = {
+    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
+    0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
+    0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
+    0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+
+/// The media type of an image by its first bytes; empty when it is none that glTF or its extensions know.
+std::string image_type(Bytes bytes) {
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 12));
+  if (head.starts_with("\x89PNG")) return "image/png";
+  if (head.starts_with("\xff\xd8\xff")) return "image/jpeg";
+  if (head.starts_with("RIFF") && head.ends_with("WEBP")) return "image/webp";
+  if (head.starts_with("\xabKTX 20")) return "image/ktx2";
+  if (head.size() == 12 && head.substr(4) == "ftypavif") return "image/avif";
+  return "";
+}
+
+/// Puts an image that lies elsewhere into a buffer of its own.
+void embed_image(Document& document, size_t index, Report& report) {
+  auto bytes = read_image(document, static_cast<int>(index));
+  std::string type = bytes ? image_type(*bytes) : "";
+  if (type.empty()) {
+    report.warn((bytes ? element_name("images", index) + ": is of no known type" : bytes.error().message()) +
+                "; a white pixel stands for it");
+    bytes = std::vector<uint8_t>(white_png.begin(), white_png.end());
+    type = "image/png";
+  }
+  Json& image = document.json["images"][index];
+  image.erase("uri");
+  image["mimeType"] = type;
+  image["bufferView"] = append_buffer_view(document, std::move(*bytes), 0, 0);
+}
+
+/// What of one buffer its views use, overlapping views as one piece, and where the piece goes.
+struct Piece {
+  size_t begin = 0;
+  size_t end = 0;
+  size_t moved_to = 0;
+};
+
+struct Range {
+  size_t begin = 0;
+  size_t end = 0;
+  Json* view = nullptr;
+};
+
+/// Appends the used pieces of `source` to `merged` and corrects the views' offsets. A piece begins at a multiple of
+/// four bytes where it did before, so that what was aligned stays so.
+void merge_buffer(const std::vector<uint8_t>& source, std::vector<Range>& ranges, std::vector<uint8_t>& merged) {
+  std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+  Piece piece;
+  const auto copy_piece = [&](size_t from) {
+    merged.insert(merged.end(), source.begin() + static_cast<ptrdiff_t>(from),
+                  source.begin() + static_cast<ptrdiff_t>(piece.end));
+  };
+  for (const Range& range : ranges) {
+    if (range.begin >= piece.end) {
+      merged.resize((merged.size() + 3) / 4 * 4 + range.begin % 4);
+      piece = {range.begin, range.end, merged.size()};
+      copy_piece(range.begin);
+    } else if (range.end > piece.end) {
+      const size_t from = piece.end;
+      piece.end = range.end;
+      copy_piece(from);
+    }
+    (*range.view)["buffer"] = 0;
+    (*range.view)["byteOffset"] = piece.moved_to + (range.begin - piece.begin);
+  }
+}
+
+void merge_buffers(Document& document) {
+  if (document.buffers.empty()) return;
+  std::vector<std::vector<Range>> ranges(document.buffers.size());
+  for (Json& view : document.json["bufferViews"]) {
+    const auto begin = static_cast<size_t>(number(view, "byteOffset", 0));
+    const auto length = static_cast<size_t>(number(view, "byteLength", 0));
+    const auto buffer = static_cast<size_t>(index_of(view, "buffer"));
+    LW_ASSERT(begin + length <= document.buffers[buffer].size());
+    ranges[buffer].push_back({begin, begin + length, &view});
+  }
+  std::vector<uint8_t> merged;
+  for (size_t i = 0; i < ranges.size(); i++) merge_buffer(document.buffers[i], ranges[i], merged);
+  Json& buffers = document.json["buffers"];
+  buffers.erase(buffers.begin() + 1, buffers.end());
+  buffers[0]["byteLength"] = merged.size();
+  document.buffers.assign(1, std::move(merged));
+}
+
+}  // namespace
+
+Document single_buffer(Document document, Report& report) {
+  const size_t images = member(document.json, "images").size();
+  for (size_t i = 0; i < images; i++)
+    if (!document.json["images"][i].contains("bufferView")) embed_image(document, i, report);
+  drop_unused(document);
+  merge_buffers(document);
+  return document;
+}
+
+GlbParts glb_parts(const Document& document) {
+  LW_ASSERT(document.buffers.size() <= 1);
+  GlbParts parts;
+  parts.json = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (!document.buffers.empty()) parts.bin = document.buffers[0];
+  return parts;
+}
+
+Result<std::vector<uint8_t>> write_glb(Document document, Report& report) {
+  const GlbParts parts = glb_parts(single_buffer(std::move(document), report));
+  const auto padded = [](size_t size) { return (size + 3) / 4 * 4; };
+  const size_t bin_size = parts.bin.empty() ? 0 : 8 + padded(parts.bin.size());
+  const size_t size = 20 + padded(parts.json.size()) + bin_size;
+  if (size > std::numeric_limits<uint32_t>::max()) return fail("GLB", "would be larger than 4 GiB");
+
+  ByteWriter writer;
+  writer.u32(glb_magic);
+  writer.u32(2);
+  writer.u32(static_cast<uint32_t>(size));
+  writer.u32(static_cast<uint32_t>(padded(parts.json.size())));
+  writer.u32(json_chunk);
+  writer.append(as_bytes(parts.json));
+  writer.align(4, ' ');
+  if (parts.bin.empty()) return writer.release();
+  writer.u32(static_cast<uint32_t>(padded(parts.bin.size())));
+  writer.u32(bin_chunk);
+  writer.append(parts.bin);
+  writer.align(4);
+  return writer.release();
+}
+
+}  // namespace lightwell
