@@ -59,6 +59,11 @@ size_t ElementType::size() const {
   return columns == 1 ? column : (column + 3) / 4 * 4 * static_cast<size_t>(columns);
 }
 
+size_t ElementType::extent() const {
+  const size_t column = size_of(component) * static_cast<size_t>(rows);
+  return size() - size() / static_cast<size_t>(columns) + column;
+}
+
 ElementType element_type(const Json& accessor) {
   ElementType type;
   type.component = static_cast<Component>(std::max(0, index_of(accessor, "componentType")));
@@ -85,7 +90,7 @@ Result<AccessorData> locate_base(const Document& document, const Json& accessor,
   const Bytes bytes = document.buffers[static_cast<size_t>(buffer)];
   const double begin = number(view, "byteOffset", 0) + number(accessor, "byteOffset", 0);
   const double end = begin + static_cast<double>(data.stride) * (static_cast<double>(data.count) - 1) +
-                     static_cast<double>(data.type.size());
+                     static_cast<double>(data.type.extent());
   if (data.count == 0 || data.type.size() == 0 || !(begin >= 0) || !(end <= static_cast<double>(bytes.size())))
     return fail(name, "reaches outside its buffer");
   data.bytes = bytes.subspan(static_cast<size_t>(begin));

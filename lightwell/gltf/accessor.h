@@ -20,8 +20,10 @@ struct ElementType {
   int columns = 1;
   bool normalized = false;
 
-  /// Bytes of an element that is packed tightly; columns of matrices begin at multiples of four bytes.
+  /// Bytes from an element to the next where they are packed tightly; columns of matrices are padded to four bytes.
   size_t size() const;
+  /// Bytes from an element's begin to the end of its last component.
+  size_t extent() const;
 };
 ElementType element_type(const Json& accessor);
 

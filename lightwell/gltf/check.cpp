@@ -73,14 +73,15 @@ Result<void> check_buffer_view(const Json& json, const Json& view, const std::st
   return {};
 }
 
-/// That `count` elements of `size` bytes, `stride` apart from `offset` on, lie in the buffer view `index`.
-Result<void> check_span(const Json& json, int index, uint64_t offset, uint64_t count, uint64_t size,
+/// That `count` elements from `offset` on lie in the buffer view `index`.
+Result<void> check_span(const Json& json, int index, uint64_t offset, uint64_t count, const ElementType& type,
                         const std::string& name) {
   const Json& view = json["bufferViews"][static_cast<size_t>(index)];
-  const auto stride = static_cast<uint64_t>(number(view, "byteStride", static_cast<double>(size)));
-  if (stride < size) return fail(name, "its elements are larger than the stride of its buffer view");
-  const double end = static_cast<double>(offset) + static_cast<double>(stride) * static_cast<double>(count - 1);
-  if (end + static_cast<double>(size) > number(view, "byteLength", 0))
+  const double stride = number(view, "byteStride", static_cast<double>(type.size()));
+  if (stride < static_cast<double>(type.size()))
+    return fail(name, "its elements are larger than the stride of its buffer view");
+  const double last = static_cast<double>(offset) + stride * static_cast<double>(count - 1);
+  if (last + static_cast<double>(type.extent()) > number(view, "byteLength", 0))
     return fail(name, "reaches outside " + element_name("bufferViews", static_cast<size_t>(index)));
   return {};
 }
@@ -96,11 +97,11 @@ Result<void> check_sparse(const Json& json, const Json& accessor, uint64_t count
   for (const Json* part : {&indices, &values}) {
     const std::string place = name + (part == &indices ? ".sparse.indices" : ".sparse.values");
     if (index_of(*part, "bufferView") < 0) return fail(place, "has no bufferView");
-    const size_t size = part == &indices ? size_of(component) : element_type(accessor).size();
+    const ElementType type = part == &indices ? ElementType{component, 1} : element_type(accessor);
     LW_TRY(offset, size_member(*part, "byteOffset", 0, 0, place));
     if (json["bufferViews"][static_cast<size_t>(index_of(*part, "bufferView"))].contains("byteStride"))
       return fail(place, "its buffer view has a byteStride");
-    LW_CHECK(check_span(json, index_of(*part, "bufferView"), offset, changed, size, place));
+    LW_CHECK(check_span(json, index_of(*part, "bufferView"), offset, changed, type, place));
   }
   return {};
 }
@@ -113,7 +114,7 @@ Result<void> check_accessor(const Json& json, const Json& accessor, const std::s
   LW_TRY(count, size_member(accessor, "count", 1, -1, name));
   LW_TRY(offset, size_member(accessor, "byteOffset", 0, 0, name));
   if (const int index = index_of(accessor, "bufferView"); index >= 0) {
-    LW_CHECK(check_span(json, index, offset, count, type.size(), name));
+    LW_CHECK(check_span(json, index, offset, count, type, name));
     const double start = number(json["bufferViews"][static_cast<size_t>(index)], "byteOffset", 0);
     if ((static_cast<uint64_t>(start) + offset) % component != 0)
       report.warn("accessors: some do not begin at a multiple of their component's size, as glTF asks for");

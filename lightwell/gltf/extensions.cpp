@@ -90,6 +90,11 @@ void drop_unknown_extensions(Json& json, Report& report) {
   if (!dropped.empty()) report.warn("extensions left out, not supported: " + names);
 }
 
+bool uses_extension(const Json& json, std::string_view name) {
+  const Json& used = member(json, "extensionsUsed");
+  return std::find(used.begin(), used.end(), name) != used.end();
+}
+
 void forget_extension(Json& json, std::string_view name) {
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
     if (!member(json, list).is_array()) continue;

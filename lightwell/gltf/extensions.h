@@ -12,6 +12,9 @@ Result<void> check_required_extensions(const Json& json);
 /// numbers and references that references.h knows, and so survives into a file that is written.
 void drop_unknown_extensions(Json& json, Report& report);
 
+/// True when extensionsUsed names it.
+bool uses_extension(const Json& json, std::string_view name);
+
 /// Removes `name` from extensionsUsed and extensionsRequired, once nothing uses it any more.
 void forget_extension(Json& json, std::string_view name);
 

@@ -3,6 +3,7 @@
 
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
+#include "lightwell/gltf/extensions.h"
 
 namespace lightwell {
 namespace {
@@ -44,6 +45,8 @@ class PrimitiveReader {
     if (!has_triangles(primitive_)) return fail(name_, "is not made of triangles");
     LW_TRY(position, attribute("POSITION", 3, 3, true));
     if (!position.stride) return fail(name_, "has no POSITION");
+    if (position.type.component != Component::f32 && !uses_extension(document_.json, "KHR_mesh_quantization"))
+      report_.warn("some positions are quantised, but KHR_mesh_quantization is not declared");
     LW_CHECK(read_faces(position.count));
     LW_CHECK(read_positions(position));
     LW_CHECK(read_normals());

@@ -41,13 +41,6 @@ Result<std::vector<uint8_t>> decode_base64(std::string_view text) {
   return bytes;
 }
 
-Result<std::vector<uint8_t>> read_data_uri(std::string_view uri) {
-  const size_t comma = uri.find(',');
-  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
-    return fail("", "its data URI is not base64");
-  return decode_base64(uri.substr(comma + 1));
-}
-
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -65,6 +58,14 @@ std::string decode_percent(std::string_view text) {
     if (low >= 0) i += 2;
   }
   return plain;
+}
+
+Result<std::vector<uint8_t>> read_data_uri(std::string_view uri) {
+  const size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) return fail("", "its data URI has no data");
+  if (uri.substr(0, comma).ends_with(";base64")) return decode_base64(uri.substr(comma + 1));
+  const std::string plain = decode_percent(uri.substr(comma + 1));
+  return std::vector<uint8_t>(plain.begin(), plain.end());
 }
 
 bool has_scheme(std::string_view uri) {

@@ -30,7 +30,7 @@ Result<std::vector<uint8_t>> dense_elements(const Document& document, const Json
   std::vector<uint8_t> bytes(count * stride);
   if (!accessor.contains("bufferView")) return bytes;
   LW_TRY(base, locate_base(document, accessor, name));
-  for (size_t i = 0; i < count; i++) std::memcpy(&bytes[i * stride], &base.bytes[i * base.stride], base.type.size());
+  for (size_t i = 0; i < count; i++) std::memcpy(&bytes[i * stride], &base.bytes[i * base.stride], base.type.extent());
   return bytes;
 }
 
@@ -57,7 +57,7 @@ Result<void> apply_sparse(const Document& document, const Json& accessor, std::v
   for (size_t i = 0; i < targets.size(); i++) {
     if (targets[i] >= elements.size() / stride)
       return fail(name + ".sparse.indices", "an index is outside the accessor");
-    std::memcpy(&elements[targets[i] * stride], &values.bytes[i * values.stride], values.type.size());
+    std::memcpy(&elements[targets[i] * stride], &values.bytes[i * values.stride], values.type.extent());
   }
   return {};
 }

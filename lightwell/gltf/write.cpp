@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 
 #include "lightwell/base/assert.h"
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
+#include "lightwell/texture/image_file.h"
 
 namespace lightwell {
 namespace {
@@ -13,19 +13,10 @@ constexpr uint32_t glb_magic = 0x46546c67;   // "glTF"
 constexpr uint32_t json_chunk = 0x4e4f534a;  // "JSON"
 constexpr uint32_t bin_chunk = 0x004e4942;   // "BIN"
 
-/// A PNG of one white pixel.
-constexpr std::array<uint8_t, 67> white_png = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
-    0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0x3a, 0x7e, 0x9b, 0x55, 0x00,
-    0x00, 0x00, 0x0a, 0x49, 0x44, 0x41, 0x54, 0x78, 0xda, 0x63, 0xf8, 0x0f, 0x00, 0x01, 0x01, 0x01, 0x00,
-    0x1c, 0xb0, 0x8c, 0x99, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-
 /// The media type of an image by its first bytes; empty when it is none that glTF or its extensions know.
-std::string image_type(Bytes bytes) {
+std::string media_type(Bytes bytes) {
+  if (const auto format = image_format(bytes)) return std::string(mime_type(*format));
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 12));
-  if (head.starts_with("\x89PNG")) return "image/png";
-  if (head.starts_with("\xff\xd8\xff")) return "image/jpeg";
-  if (head.starts_with("RIFF") && head.ends_with("WEBP")) return "image/webp";
   if (head.starts_with("\xabKTX 20")) return "image/ktx2";
   if (head.size() == 12 && head.substr(4) == "ftypavif") return "image/avif";
   return "";
@@ -34,11 +25,11 @@ std::string image_type(Bytes bytes) {
 /// Puts an image that lies elsewhere into a buffer of its own.
 void embed_image(Document& document, size_t index, Report& report) {
   auto bytes = read_image(document, static_cast<int>(index));
-  std::string type = bytes ? image_type(*bytes) : "";
+  std::string type = bytes ? media_type(*bytes) : "";
   if (type.empty()) {
     report.warn((bytes ? element_name("images", index) + ": is of no known type" : bytes.error().message()) +
                 "; a white pixel stands for it");
-    bytes = std::vector<uint8_t>(white_png.begin(), white_png.end());
+    bytes = write_png(Image{1, 1, 1, {255}});
     type = "image/png";
   }
   Json& image = document.json["images"][index];

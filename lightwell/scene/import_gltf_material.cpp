@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/scene/import_gltf_material.h"
+
+#include <cmath>
+
+#include "lightwell/texture/image_file.h"
+
+namespace lightwell {
+namespace {
+
+/// The most pixels that all images of a scene may have together.
+constexpr uint64_t max_pixels = uint64_t(1) << 31;
+
+TextureLookup::Wrap wrap_mode(const Json& sampler, const char* key) {
+  switch (index_of(sampler, key)) {
+    case 33071: return TextureLookup::Wrap::clamp;
+    case 33648: return TextureLookup::Wrap::mirror;
+    default: return TextureLookup::Wrap::repeat;
+  }
+}
+
+/// The image of a texture: one of glTF's own formats, or the one of an extension where there is no other.
+int image_of(const Json& texture) {
+  for (const char* name : {"EXT_texture_webp", "", "KHR_texture_basisu", "EXT_texture_avif"}) {
+    const int source = index_of(*name ? extension(texture, name) : texture, "source");
+    if (source >= 0) return source;
+  }
+  return -1;
+}
+
+/// KHR_texture_transform: scaled, turned counter-clockwise where v points up, then moved.
+void apply_transform(const Json& transform, TextureLookup& lookup) {
+  const auto offset = numbers<2>(transform, "offset", {{0, 0}});
+  const auto scale = numbers<2>(transform, "scale", {{1, 1}});
+  const double angle = number(transform, "rotation", 0);
+  const double c = std::cos(angle), s = std::sin(angle);
+  lookup.row_u = {static_cast<float>(c * scale[0]), static_cast<float>(s * scale[1]), static_cast<float>(offset[0])};
+  lookup.row_v = {static_cast<float>(-s * scale[0]), static_cast<float>(c * scale[1]), static_cast<float>(offset[1])};
+  if (const int texcoord = index_of(transform, "texCoord"); texcoord >= 0) lookup.texcoord = texcoord;
+}
+
+/// Reads one material; notes whether a factor had to be clamped.
+class MaterialReader {
+ public:
+  MaterialReader(const Json& document, const Json& json, std::string name, Report& report)
+      : document_(document), json_(json), name_(std::move(name)), report_(report) {}
+
+  Material read() {
+    Material material;
+    material.name = text(json_, "name");
+    read_surface(material);
+    read_emission(material);
+    const std::string mode = text(json_, "alphaMode");
+    if (mode == "MASK") material.alpha = Material::Alpha::mask;
+    if (mode == "BLEND") material.alpha = Material::Alpha::blend;
+    material.alpha_cutoff = factor(json_, "alphaCutoff", 0.5f, 1e6f);
+    material.double_sided = boolean(json_, "doubleSided", false);
+    if (clamped_) report_.warn(name_ + ": factors outside their range were clamped");
+    return material;
+  }
+
+ private:
+  void read_surface(Material& material) {
+    const Json& surface = member(json_, "pbrMetallicRoughness");
+    material.base_color = factors<4>(surface, "baseColorFactor", 1);
+    material.base_color_texture = lookup(member(surface, "baseColorTexture"));
+    material.metallic = factor(surface, "metallicFactor", 1, 1);
+    material.roughness = factor(surface, "roughnessFactor", 1, 1);
+    material.metallic_roughness_texture = lookup(member(surface, "metallicRoughnessTexture"));
+    material.specular = factor(extension(json_, "KHR_materials_specular"), "specularFactor", 1, 1);
+    material.transmission = factor(extension(json_, "KHR_materials_transmission"), "transmissionFactor", 0, 1);
+    if (extension(json_, "KHR_materials_unlit").is_object()) make_diffuse(material);
+  }
+
+  /// An unlit surface shows its colour without light; for the light around it, it is a diffuse one of that colour.
+  static void make_diffuse(Material& material) {
+    material.metallic = 0;
+    material.roughness = 1;
+    material.specular = 0;
+    material.metallic_roughness_texture = {};
+  }
+
+  void read_emission(Material& material) {
+    constexpr float largest_strength = 1e12f;
+    const float strength =
+        factor(extension(json_, "KHR_materials_emissive_strength"), "emissiveStrength", 1, largest_strength);
+    material.emission = factors<3>(json_, "emissiveFactor", 0) * strength;
+    material.emission_texture = lookup(member(json_, "emissiveTexture"));
+  }
+
+  float clamp(double value, float largest) {
+    const double inside = std::clamp(value, 0.0, static_cast<double>(largest));
+    clamped_ |= inside != value;
+    return static_cast<float>(inside);
+  }
+
+  float factor(const Json& object, const char* key, float fallback, float largest) {
+    return clamp(number(object, key, fallback), largest);
+  }
+
+  template <int N>
+  Vec<float, N> factors(const Json& object, const char* key, float fallback) {
+    const auto values = numbers<N>(object, key, Vec<double, N>::filled(fallback));
+    Vec<float, N> result;
+    for (int i = 0; i < N; i++) result[i] = clamp(values[i], 1);
+    return result;
+  }
+
+  TextureLookup lookup(const Json& info) {
+    TextureLookup lookup;
+    const int index = index_of(info, "index");
+    if (index < 0) return lookup;
+    const Json& texture = element(member(document_, "textures"), static_cast<size_t>(index));
+    const int sampler_index = index_of(texture, "sampler");
+    const Json& sampler = element(member(document_, "samplers"), static_cast<size_t>(sampler_index));
+    lookup.texcoord = std::max(0, index_of(info, "texCoord"));
+    lookup.wrap_u = wrap_mode(sampler, "wrapS");
+    lookup.wrap_v = wrap_mode(sampler, "wrapT");
+    apply_transform(extension(info, "KHR_texture_transform"), lookup);
+    if (lookup.texcoord > 1) {
+      report_.warn(name_ + ": texture coordinates beyond TEXCOORD_1 are not read, TEXCOORD_0 is taken");
+      lookup.texcoord = 0;
+    }
+    lookup.image = image_of(texture);
+    return lookup;
+  }
+
+  const Json& document_;
+  const Json& json_;
+  const std::string name_;
+  Report& report_;
+  bool clamped_ = false;
+};
+
+Result<Image> decode_image(const Document& document, int index) {
+  LW_TRY(bytes, read_image(document, index));
+  const std::string name = element_name("images", static_cast<size_t>(index));
+  constexpr std::string_view ktx2 = "\xabKTX 20";
+  if (bytes.size() > ktx2.size() && std::equal(ktx2.begin(), ktx2.end(), bytes.begin(),
+                                               [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; }))
+    return fail(name, "KHR_texture_basisu is not supported");
+  auto image = read_image_file(bytes);
+  if (!image) return fail(Error{"", name, image.error().message()});
+  return image;
+}
+
+}  // namespace
+
+std::vector<Material> read_materials(const Json& document, Report& report) {
+  std::vector<Material> materials;
+  const Json& array = member(document, "materials");
+  for (size_t i = 0; i < array.size(); i++)
+    materials.push_back(MaterialReader(document, array[i], element_name("materials", i), report).read());
+  return materials;
+}
+
+std::vector<Image> read_images(const Document& document, Report& report) {
+  std::vector<Image> images;
+  uint64_t pixels = 0;
+  for (size_t i = 0; i < member(document.json, "images").size(); i++) {
+    auto image = decode_image(document, static_cast<int>(i));
+    if (image) pixels += uint64_t(static_cast<uint32_t>(image->width)) * static_cast<uint32_t>(image->height);
+    if (image && pixels > max_pixels) image = fail(element_name("images", i), "too many pixels in all images together");
+    if (!image) {
+      report.warn(image.error().message() + "; a white pixel stands for it");
+      image = Image{1, 1, 3, {255, 255, 255}};
+    }
+    images.push_back(std::move(*image));
+  }
+  return images;
+}
+
+}  // namespace lightwell
