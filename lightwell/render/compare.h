@@ -29,10 +29,10 @@ struct Comparison {
   double max = 0;
 };
 
-/// Compares `picture` with `reference`, which must have the same size. `display` says how deltae, lab and flip see
-/// them.
+/// Compares `picture` with `reference`, which must have the same size. `display` says how deltae, lab and flip see them;
+/// pictures of 8 bits have been through a tone curve already.
 Result<Comparison> compare(const Picture& picture, const Picture& reference, Metric metric,
-                           const Display& display = {});
+                           const Display& display = {0, ToneCurve::none});
 
 /// The errors as colours from black over red and yellow to white at the largest one, as displayed.
 Image heat_map(const Comparison& comparison, int width, int height);

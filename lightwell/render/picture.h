@@ -19,28 +19,33 @@ enum class ToneCurve {
   neutral,  ///< Khronos PBR Neutral
 };
 
-/// From radiance to a screen: times 2^exposure, then the tone curve, then sRGB.
+/// From radiance to a screen: times 2^exposure, then the tone curve.
 struct Display {
   float exposure = 0;  ///< EV
   ToneCurve tone = ToneCurve::neutral;
+
+  /// What the screen emits, linear, within [0, 1].
+  Vec3f operator()(const Vec3f& radiance) const;
 };
 
 /// The Khronos PBR Neutral tone curve (Khronos Group, 2024): colours below 0.8 keep their hue and, 4 % of reflection
 /// apart, their value; brighter ones are compressed and desaturated.
-Vec3f neutral_tone(Vec3f radiance);
-
-/// The sRGB transfer function (IEC 61966-2-1) of a linear value in [0, 1], and its inverse.
-float to_srgb(float linear);
-float from_srgb(float encoded);
+Vec3f neutral_tone(Vec3f colour);
 
 /// The picture as a screen shows it: 8-bit sRGB, three channels.
-Image to_display(const Picture& picture, const Display& display);
+Image displayed(const Picture& picture, const Display& display);
 
-/// Writes a picture; the name's ending says how: .png (as displayed), .exr (half floats would lose the dark: 32-bit
-/// floats) or .pfm (floats, first row at the bottom), both linear and without exposure.
+/// Writes a picture; the name's ending says how: .png (as displayed), .exr or .pfm (32-bit floats as they are).
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture, const Display& display = {});
 
-/// Reads a picture of any of these kinds, recognised by content; 8-bit images are taken as sRGB without a tone curve.
+/// The bytes of an OpenEXR file of 32-bit floats, deflated.
+Result<std::vector<uint8_t>> write_exr(const Picture& picture);
+/// The bytes of a PFM file: little-endian floats, first row at the bottom.
+std::vector<uint8_t> write_pfm(const Picture& picture);
+
+/// Reads a picture, recognised by content: OpenEXR, PFM (colour or grey, either byte order), or an 8-bit image, which
+/// is taken as sRGB without a tone curve; transparency is ignored.
 Result<Picture> read_picture(const std::filesystem::path& path);
+Result<Picture> read_picture(Bytes file);
 
 }  // namespace lightwell
