@@ -10,7 +10,7 @@ Json to_json(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-int SceneBuilder::material(const Lambertian& material) {
+Json lambertian_json(const Lambertian& material) {
   const Vec3f& color = material.color;
   Json json = {
       {"name", material.name},
@@ -21,7 +21,7 @@ int SceneBuilder::material(const Lambertian& material) {
   if (brightest > 0) json["emissiveFactor"] = to_json(material.emission / std::max(brightest, 1.0f));
   if (brightest > 1) json["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", brightest}};
   if (material.double_sided) json["doubleSided"] = true;
-  return this->material(std::move(json));
+  return json;
 }
 
 int SceneBuilder::material(Json material) {

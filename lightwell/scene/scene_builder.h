@@ -17,6 +17,8 @@ struct Lambertian {
   bool double_sided = false;
 };
 
+Json lambertian_json(const Lambertian& material);
+
 /// Puts a glTF document together from meshes and materials, one node an object.
 class SceneBuilder {
  public:
@@ -29,8 +31,8 @@ class SceneBuilder {
   SceneBuilder(const SceneBuilder&) = delete;
   SceneBuilder& operator=(const SceneBuilder&) = delete;
 
-  int material(const Lambertian& material);
-  /// A material that is given as glTF has it; `extensions` inside are added to the document's list.
+  int material(const Lambertian& material) { return this->material(lambertian_json(material)); }
+  /// A material as glTF has it; its extensions are added to the document's list.
   int material(Json material);
   /// An image by its URI, relative to the document's folder, as a texture that repeats.
   int texture(const std::string& uri);

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/scene/import_obj.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <unordered_map>
+
+#include "lightwell/base/random.h"
+#include "lightwell/scene/finish_mesh.h"
+#include "lightwell/scene/obj_materials.h"
+#include "lightwell/scene/obj_text.h"
+#include "lightwell/scene/polygon.h"
+#include "lightwell/texture/transfer.h"
+
+namespace lightwell {
+namespace {
+
+/// What the library read, positions turned into vectors.
+struct Obj {
+  tinyobj::attrib_t attributes;
+  std::vector<tinyobj::shape_t> shapes;
+  std::vector<tinyobj::material_t> materials;
+  std::vector<Vec3f> positions;
+  bool has_colors = false;
+};
+
+Vec3f triple(const std::vector<float>& values, size_t index) {
+  return {{values[3 * index], values[3 * index + 1], values[3 * index + 2]}};
+}
+
+Result<void> check_finite(const std::vector<float>& values, size_t per_element, const char* name) {
+  for (size_t i = 0; i < values.size(); i++) {
+    if (!(std::abs(values[i]) <= farthest_position))
+      return fail(name + std::to_string(i / per_element + 1), "a number that is not finite, or beyond 1e9");
+  }
+  return {};
+}
+
+/// Holds every corner against the vertices that there are; the library only resolves negative indices.
+Result<void> check_corners(const Obj& obj) {
+  const auto within = [](int index, size_t size, bool required) {
+    return index < 0 ? index == -1 && !required : static_cast<size_t>(index) < size;
+  };
+  for (const tinyobj::shape_t& shape : obj.shapes) {
+    for (size_t i = 0; i < shape.mesh.indices.size(); i++) {
+      const tinyobj::index_t& corner = shape.mesh.indices[i];
+      if (!within(corner.vertex_index, obj.attributes.vertices.size() / 3, true) ||
+          !within(corner.normal_index, obj.attributes.normals.size() / 3, false) ||
+          !within(corner.texcoord_index, obj.attributes.texcoords.size() / 2, false))
+        return fail(shape.name.substr(0, 60), "a face refers to a vertex that is not there");
+    }
+  }
+  return {};
+}
+
+/// Passes on the library's first warnings, a line each.
+void report_warnings(const std::string& warnings, Report& report) {
+  constexpr int most = 20;
+  std::istringstream lines(warnings);
+  int count = 0;
+  for (std::string line; std::getline(lines, line) && count < most;) {
+    if (line.size() < 2) continue;
+    report.warn(line.substr(line.starts_with('.'), 200));
+    count++;
+  }
+}
+
+Result<Obj> read_obj(const std::string& text, ObjMaterialReader& materials, Report& report) {
+  Obj obj;
+  std::istringstream stream(text);
+  std::string warning, error;
+  constexpr bool triangulate = false, color_everywhere = true;
+  try {
+    if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream, &materials,
+                          triangulate, color_everywhere))
+      return fail("", error.substr(0, error.find('\n')));
+  } catch (const std::exception& exception) {
+    return fail("", exception.what());
+  }
+  report_warnings(warning, report);
+  LW_CHECK(check_finite(obj.attributes.vertices, 3, "v "));
+  LW_CHECK(check_finite(obj.attributes.normals, 3, "vn "));
+  LW_CHECK(check_finite(obj.attributes.texcoords, 2, "vt "));
+  LW_CHECK(check_finite(obj.attributes.colors, 3, "v "));
+  LW_CHECK(check_corners(obj));
+  for (size_t i = 0; i < obj.attributes.vertices.size() / 3; i++)
+    obj.positions.push_back(triple(obj.attributes.vertices, i));
+  // The library gives white to vertices without a colour.
+  const auto is_one = [](float channel) { return channel == 1; };
+  obj.has_colors = !std::all_of(obj.attributes.colors.begin(), obj.attributes.colors.end(), is_one);
+  return obj;
+}
+
+/// Calls visit(material, a, b, c) for every triangle of a shape, a to c being its corners.
+template <typename Visit>
+void for_each_triangle(const Obj& obj, const tinyobj::shape_t& shape, const Visit& visit) {
+  std::vector<Vec3f> points;
+  std::vector<Face> triangles;
+  size_t first = 0;
+  for (size_t face = 0; face < shape.mesh.num_face_vertices.size(); face++) {
+    const tinyobj::index_t* corners = shape.mesh.indices.data() + first;
+    const size_t count = shape.mesh.num_face_vertices[face];
+    first += count;
+    points.clear();
+    triangles.clear();
+    for (size_t i = 0; i < count; i++) points.push_back(obj.positions[static_cast<size_t>(corners[i].vertex_index)]);
+    triangulate(points, triangles);
+    for (const Face& t : triangles) visit(shape.mesh.material_ids[face], corners[t[0]], corners[t[1]], corners[t[2]]);
+  }
+}
+
+/// The smooth normal of every position over all shapes, so that no seam shows between groups and materials.
+std::vector<Vec3f> normals_of_positions(const Obj& obj) {
+  Mesh whole;
+  whole.positions = obj.positions;
+  for (const tinyobj::shape_t& shape : obj.shapes) {
+    for_each_triangle(
+        obj, shape, [&](int, const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
+          whole.faces.push_back({static_cast<uint32_t>(a.vertex_index), static_cast<uint32_t>(b.vertex_index),
+                                 static_cast<uint32_t>(c.vertex_index)});
+        });
+  }
+  return smooth_normals(whole);
+}
+
+struct CornerHash {
+  size_t operator()(const std::array<int, 3>& corner) const {
+    uint64_t hash = 0;
+    for (const int index : corner) hash = hash64(hash + static_cast<uint32_t>(index));
+    return hash;
+  }
+};
+
+/// A mesh that grows by corners; equal corners share a vertex.
+class WeldedMesh {
+ public:
+  WeldedMesh(const Obj& obj, const std::vector<Vec3f>& smooth) : obj_(obj), smooth_(smooth) {}
+
+  uint32_t vertex(const tinyobj::index_t& corner) {
+    const auto [place, is_new] =
+        vertices_.try_emplace({corner.vertex_index, corner.texcoord_index, corner.normal_index},
+                              static_cast<uint32_t>(mesh.positions.size()));
+    if (is_new) append(corner);
+    return place->second;
+  }
+
+  Mesh mesh;
+  bool has_texcoords = false;
+
+ private:
+  void append(const tinyobj::index_t& corner) {
+    const auto v = static_cast<size_t>(corner.vertex_index);
+    mesh.positions.push_back(obj_.positions[v]);
+    const bool has_normal = corner.normal_index >= 0;
+    mesh.normals.push_back(has_normal ? triple(obj_.attributes.normals, static_cast<size_t>(corner.normal_index))
+                                      : smooth_[v]);
+    Vec2f texcoord{};
+    if (corner.texcoord_index >= 0) {
+      const auto t = static_cast<size_t>(corner.texcoord_index);
+      // Texture coordinates of OBJ begin at the bottom, glTF's at the top.
+      texcoord = {{obj_.attributes.texcoords[2 * t], 1 - obj_.attributes.texcoords[2 * t + 1]}};
+      has_texcoords = true;
+    }
+    mesh.texcoords[0].push_back(texcoord);
+    if (obj_.has_colors) mesh.colors.push_back(linear_color(triple(obj_.attributes.colors, v)));
+  }
+
+  static Vec4f linear_color(const Vec3f& encoded) {
+    Vec4f linear = Vec4f::filled(1);
+    for (int c = 0; c < 3; c++) linear[c] = srgb_to_linear(std::clamp(encoded[c], 0.0f, 1.0f));
+    return linear;
+  }
+
+  const Obj& obj_;
+  const std::vector<Vec3f>& smooth_;
+  std::unordered_map<std::array<int, 3>, uint32_t, CornerHash> vertices_;
+};
+
+/// Gives out glTF materials for the library's, each once with and once without textures.
+class MaterialTable {
+ public:
+  MaterialTable(const Obj& obj, const ObjMaterialReader& reader, SceneBuilder& scene)
+      : obj_(obj), reader_(reader), scene_(scene) {}
+
+  int material(int index, bool has_texcoords) {
+    const auto [place, is_new] = made_.try_emplace({index, has_texcoords}, 0);
+    if (is_new) place->second = make(index, has_texcoords);
+    return place->second;
+  }
+
+ private:
+  int make(int index, bool has_texcoords) {
+    if (index < 0) return scene_.material(Lambertian{.name = "surface", .double_sided = true});
+    const auto i = static_cast<size_t>(index);
+    return reader_.add_to(scene_, obj_.materials[i], i, has_texcoords);
+  }
+
+  const Obj& obj_;
+  const ObjMaterialReader& reader_;
+  SceneBuilder& scene_;
+  std::map<std::pair<int, bool>, int> made_;
+};
+
+/// Adds a shape as a node with a primitive for each material.
+void add_shape(const Obj& obj, const tinyobj::shape_t& shape, const std::vector<Vec3f>& smooth,
+               MaterialTable& materials, SceneBuilder& scene) {
+  std::map<int, WeldedMesh> meshes;
+  for_each_triangle(obj, shape,
+                    [&](int material, const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
+                      WeldedMesh& welded = meshes.try_emplace(material, obj, smooth).first->second;
+                      welded.mesh.faces.push_back({welded.vertex(a), welded.vertex(b), welded.vertex(c)});
+                    });
+  std::vector<SceneBuilder::Part> parts;
+  for (auto& [material, welded] : meshes) {
+    if (!welded.has_texcoords) welded.mesh.texcoords[0].clear();
+    complete_normals(welded.mesh);
+    parts.push_back({welded.mesh, materials.material(material, welded.has_texcoords)});
+  }
+  if (!parts.empty()) scene.object(shape.name, parts);
+}
+
+}  // namespace
+
+Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report) {
+  LW_TRY(text, checked_obj_text(file, report));
+  ObjMaterialReader materials(folder, report);
+  LW_TRY(obj, read_obj(text, materials, report));
+  const std::vector<Vec3f> smooth = normals_of_positions(obj);
+  SceneBuilder scene;
+  MaterialTable table(obj, materials, scene);
+  size_t faces = 0;
+  for (const tinyobj::shape_t& shape : obj.shapes) {
+    faces += shape.mesh.num_face_vertices.size();
+    add_shape(obj, shape, smooth, table, scene);
+  }
+  if (faces == 0) return fail("", "has no faces");
+  Document document = scene.release();
+  document.folder = folder;
+  return document;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "lightwell/base/file.h"
+#include "lightwell/scene/builtin.h"
+#include "lightwell/scene/import_gltf.h"
+#include "lightwell/scene/import_obj.h"
+#include "lightwell/scene/obj_text.h"
+#include "lightwell/scene/ply.h"
+#include "lightwell/scene/scene.h"
+#include "lightwell/texture/image_format.h"
+
+namespace lightwell {
+namespace {
+
+std::string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+std::string_view without_leading_space(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+}
+
+/// A binary STL says how many facets of 50 bytes follow its header; an ascii one begins with "solid".
+bool is_stl(Bytes file) {
+  ByteReader reader(file);
+  reader.take(80);
+  const uint64_t facets = reader.u32();
+  const bool fits = reader.ok() && facets > 0 && reader.remaining() == facets * 50;
+  return fits || without_leading_space(text_of(file)).starts_with("solid");
+}
+
+/// What a file is that Lightwell knows of and does not read.
+std::optional<std::string> unsupported_format(Bytes file) {
+  using namespace std::string_view_literals;
+  constexpr std::pair<std::string_view, const char*> beginnings[] = {
+      {"DRACO"sv, "a bare Draco mesh; Draco is read inside glTF"},
+      {"\x76\x2f\x31\x01"sv, "an OpenEXR picture"},
+      {"#?"sv, "a Radiance picture; --environment takes it"},
+      {"Kaydara FBX Binary"sv, "an FBX file"},
+      {"BLENDER"sv, "a Blender file"},
+      {"PXR-USDC"sv, "a USD file"},
+      {"#usda"sv, "a USD file"},
+      {"PK\x03\x04"sv, "a ZIP archive"},
+      {"<"sv, "an XML file"},
+      {"\xfe\xff"sv, "UTF-16 text; save it as UTF-8"},
+      {"\xff\xfe"sv, "UTF-16 text; save it as UTF-8"},
+  };
+  const std::string_view text = text_of(file);
+  for (const auto& [beginning, name] : beginnings) {
+    if (text.starts_with(beginning)) return name;
+  }
+  if (image_format(file)) return "a picture";
+  if (is_stl(file)) return "an STL file";
+  if (without_leading_space(text).starts_with('{') && text.find("\"asset\"") == text.npos)
+    return "JSON that is no glTF";
+  return std::nullopt;
+}
+
+std::string list_of_builtin_scenes() {
+  std::string list;
+  for (const BuiltinScene& scene : builtin_scenes()) list += (list.empty() ? "" : ", ") + std::string(scene.name);
+  return list;
+}
+
+Result<Document> document_of(Bytes file, const std::filesystem::path& folder, Report& report) {
+  if (file.empty()) return fail("", "is empty");
+  // A PLY or OBJ file may begin like an STL, but not the other way round.
+  if (is_ply(file)) return ply_document(file, report);
+  if (const auto format = unsupported_format(file)) return fail("", "is " + *format + ", which is not supported");
+  if (is_gltf(file)) return read_document(file, folder, report);
+  if (is_obj(file)) return obj_document(file, folder, report);
+  return fail("", "is neither glTF, OBJ nor PLY");
+}
+
+/// "dragon" of "scans/dragon.ply.gz".
+std::string scene_name(std::filesystem::path path) {
+  if (path.extension() == ".gz") path = path.stem();
+  return path.stem().string();
+}
+
+Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& options, Report& report) {
+  constexpr bool inflate = true;
+  LW_TRY(file, read_file(path, inflate));
+  LW_TRY(document, document_of(file, path.parent_path(), report));
+  file = {};  // the document has its own copy of what it needs
+  reorient(document, options.up, options.unit);
+  return scene_from_document(std::move(document), scene_name(path), report);
+}
+
+}  // namespace
+
+Result<Scene> load_scene(const std::string& path, const ImportOptions& options, Report& report) {
+  if (const BuiltinScene* builtin = find_builtin_scene(path))
+    return scene_from_document(builtin->make(options.seed), path, report);
+  std::error_code code;
+  if (!std::filesystem::exists(path, code))
+    return fail({path, "", "no such file, nor one of the built-in scenes " + list_of_builtin_scenes()});
+  auto scene = load_file(path, options, report);
+  if (!scene) return fail(in_file(std::move(scene.error()), path));
+  return scene;
+}
+
+}  // namespace lightwell

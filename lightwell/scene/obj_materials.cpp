@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/scene/obj_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "lightwell/gltf/resource.h"
+#include "lightwell/scene/obj_text.h"
+
+namespace lightwell {
+namespace {
+
+/// A relative path as a URI: everything but letters, digits and a few signs becomes %XX.
+std::string as_uri(const std::string& path) {
+  constexpr char digits[] = "0123456789ABCDEF";
+  std::string uri;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || std::string_view("-._~/").find(c) != std::string_view::npos) {
+      uri += c;
+    } else if (c == '\\') {
+      uri += '/';
+    } else {
+      uri += {'%', digits[byte >> 4], digits[byte & 15]};
+    }
+  }
+  return uri;
+}
+
+/// A number of a material, kept within [0, most].
+float clamped(float value, float most) { return std::isfinite(value) ? std::clamp(value, 0.0f, most) : 0; }
+
+Vec3f clamped(const float (&rgb)[3], float most) {
+  return {{clamped(rgb[0], most), clamped(rgb[1], most), clamped(rgb[2], most)}};
+}
+
+}  // namespace
+
+bool ObjMaterialReader::operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
+                                   std::map<std::string, int>* indices, std::string*, std::string*) {
+  if (read(names, materials, indices)) return true;
+  // Not one file with spaces in its name: perhaps several files.
+  bool any = false;
+  std::istringstream words(names);
+  for (std::string name; words >> name && name != names;) any |= read(name, materials, indices);
+  if (!any) report_.warn("mtllib " + names.substr(0, 80) + ": no such file below the OBJ file's folder");
+  return any;
+}
+
+bool ObjMaterialReader::read(const std::string& name, std::vector<tinyobj::material_t>* materials,
+                             std::map<std::string, int>* indices) {
+  const auto file = read_uri(as_uri(name), folder_);
+  if (!file) return false;
+  std::istringstream text(checked_mtl_text(*file));
+  std::string warning, error;
+  tinyobj::LoadMtl(indices, materials, &text, &warning, &error);
+  folder_of_material_.resize(materials->size(), std::filesystem::path(name).parent_path());
+  return true;
+}
+
+Json ObjMaterialReader::texture(SceneBuilder& scene, const std::string& name, size_t material) const {
+  return {{"index", scene.texture(as_uri((folder_of_material_[material] / name).generic_string()))}};
+}
+
+int ObjMaterialReader::add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,
+                              bool has_texcoords) const {
+  Json json = lambertian_json({.name = material.name,
+                               .color = clamped(material.diffuse, 1),
+                               .emission = clamped(material.emission, 1e9f),
+                               .double_sided = true});
+  if (has_texcoords && !material.diffuse_texname.empty())
+    json["pbrMetallicRoughness"]["baseColorTexture"] = texture(scene, material.diffuse_texname, index);
+  if (has_texcoords && !material.emissive_texname.empty()) {
+    json["emissiveTexture"] = texture(scene, material.emissive_texname, index);
+    // A map without a factor is meant to be seen.
+    if (max_component(clamped(material.emission, 1e9f)) == 0) json["emissiveFactor"] = {1, 1, 1};
+  }
+  const float opacity = clamped(material.dissolve, 1);
+  if (opacity < 1) {
+    json["pbrMetallicRoughness"]["baseColorFactor"][3] = opacity;
+    json["alphaMode"] = "BLEND";
+  }
+  return scene.material(std::move(json));
+}
+
+}  // namespace lightwell

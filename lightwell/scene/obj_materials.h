@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tiny_obj_loader.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lightwell/scene/scene_builder.h"
+
+namespace lightwell {
+
+/// Reads the MTL files that an OBJ file names, from the OBJ file's folder and below. What cannot be read is warned of.
+class ObjMaterialReader : public tinyobj::MaterialReader {
+ public:
+  ObjMaterialReader(std::filesystem::path folder, Report& report) : folder_(std::move(folder)), report_(report) {}
+
+  /// Called by the library with the rest of an mtllib line.
+  bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
+                  std::map<std::string, int>* indices, std::string* warning, std::string* error) override;
+  /// The glTF material for one that was read; textures are looked for beside its MTL file.
+  int add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index, bool has_texcoords) const;
+
+ private:
+  bool read(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* indices);
+  Json texture(SceneBuilder& scene, const std::string& name, size_t material) const;
+
+  std::filesystem::path folder_;
+  Report& report_;
+  std::vector<std::filesystem::path> folder_of_material_;  ///< of its MTL file, relative to the OBJ's
+};
+
+}  // namespace lightwell

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/scene/obj_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+namespace lightwell {
+namespace {
+
+constexpr size_t most_corners = 255;
+
+constexpr std::string_view spaces = " \t\r\v\f";
+
+std::string_view text_of(Bytes bytes) {
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const size_t start = text.find_first_not_of(spaces);
+  if (start == text.npos) return {};
+  return text.substr(start, text.find_last_not_of(spaces) + 1 - start);
+}
+
+/// Takes the first word off a text; empty at its end.
+std::string_view take_word(std::string_view& text) {
+  text = trimmed(text);
+  const size_t length = std::min(text.find_first_of(spaces), text.size());
+  const std::string_view word = text.substr(0, length);
+  text.remove_prefix(length);
+  return word;
+}
+
+/// The next line of a text, joined with those that a backslash continues it by. `lines` counts them.
+std::string take_line(std::string_view& text, size_t& lines) {
+  std::string line;
+  while (!text.empty()) {
+    const size_t length = std::min(text.find('\n'), text.size());
+    std::string_view part = text.substr(0, length);
+    text.remove_prefix(std::min(length + 1, text.size()));
+    lines++;
+    if (part.ends_with('\r')) part.remove_suffix(1);
+    const bool continues = part.ends_with('\\');
+    if (continues) part.remove_suffix(1);
+    line += part;
+    if (!continues) break;
+    line += ' ';
+  }
+  return line;
+}
+
+std::string_view without_comment(std::string_view line) { return line.substr(0, line.find('#')); }
+
+/// True for words that begin with a number, as the library reads them.
+bool is_number(std::string_view word) {
+  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
+  double value;
+  return !word.empty() && (word[0] == '.' || (word[0] >= '0' && word[0] <= '9')) &&
+         std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc();
+}
+
+bool begins_with_numbers(std::string_view words, int count) {
+  for (int i = 0; i < count; i++) {
+    if (!is_number(take_word(words))) return false;
+  }
+  return true;
+}
+
+bool is_index(std::string_view word) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() && value != 0;
+}
+
+/// "1", "1/2", "1/2/3" or "1//3", where each number may be negative but not zero.
+bool is_corner(std::string_view word) {
+  const size_t first = std::min(word.find('/'), word.size());
+  if (!is_index(word.substr(0, first))) return false;
+  if (first == word.size()) return true;
+  word.remove_prefix(first + 1);
+  const size_t second = std::min(word.find('/'), word.size());
+  const bool has_normal = second < word.size();
+  if (!is_index(word.substr(0, second)) && !(second == 0 && has_normal)) return false;
+  return !has_normal || is_index(word.substr(second + 1));
+}
+
+/// Why the corners of a face cannot be read; empty when they can.
+std::string fault_of_face(std::string_view corners) {
+  size_t count = 0;
+  for (std::string_view word = take_word(corners); !word.empty(); word = take_word(corners), count++) {
+    if (!is_corner(word)) return "a face's corner that is no index";
+  }
+  if (count > most_corners) return "a face of " + std::to_string(count) + " corners; 255 are the most";
+  return {};
+}
+
+std::string with_underscores(std::string_view name) {
+  std::string joined(trimmed(name));
+  std::replace_if(
+      joined.begin(), joined.end(), [](char c) { return spaces.find(c) != spaces.npos; }, '_');
+  return joined;
+}
+
+/// A file's name, whose spaces the library wants escaped.
+std::string with_escapes(std::string_view name) {
+  std::string escaped;
+  for (const char c : trimmed(name)) {
+    if (c == ' ') escaped += '\\';
+    escaped += c == '\\' ? '/' : c;
+  }
+  return escaped;
+}
+
+bool is_left_out_with_warning(std::string_view keyword) {
+  constexpr std::string_view keywords[] = {"p", "l", "curv", "curv2", "surf"};
+  return std::find(std::begin(keywords), std::end(keywords), keyword) != std::end(keywords);
+}
+
+/// One statement as the library is to see it, or what is wrong with it.
+Result<std::string> checked_statement(std::string_view line, Report& report) {
+  std::string_view rest = line;
+  const std::string_view keyword = take_word(rest);
+  if (keyword == "v" || keyword == "vn" || keyword == "vt") {
+    rest = without_comment(rest);
+    if (!begins_with_numbers(rest, keyword == "vt" ? 1 : 3)) return fail("", "a vertex with too few numbers");
+    return std::string(keyword) + " " + std::string(trimmed(rest));
+  }
+  if (keyword == "f") {
+    rest = without_comment(rest);
+    const std::string fault = fault_of_face(rest);
+    if (!fault.empty()) return fail("", fault);
+    return "f " + std::string(trimmed(rest));
+  }
+  if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
+    const std::string name = with_underscores(rest);
+    return std::string(keyword) + " " + (name.empty() ? "unnamed" : name);
+  }
+  if (keyword == "mtllib") return "mtllib " + with_escapes(rest);
+  if (is_left_out_with_warning(keyword)) report.warn("points, lines and curves are left out");
+  return std::string();
+}
+
+}  // namespace
+
+bool is_obj(Bytes bytes) {
+  constexpr std::string_view keywords[] = {"v", "vn", "vt", "f", "o", "g", "s", "l", "p", "mtllib", "usemtl"};
+  std::string_view text = text_of(bytes);
+  size_t lines = 0;
+  while (!text.empty()) {
+    const std::string line = take_line(text, lines);
+    std::string_view rest = line;
+    const std::string_view keyword = take_word(rest);
+    if (keyword.empty() || keyword.starts_with('#')) continue;
+    return std::find(std::begin(keywords), std::end(keywords), keyword) != std::end(keywords);
+  }
+  return false;
+}
+
+Result<std::string> checked_obj_text(Bytes file, Report& report) {
+  std::string_view text = text_of(file);
+  if (text.find('\0') != text.npos) return fail("", "holds zero bytes, so it is no text");
+  std::string checked;
+  checked.reserve(text.size());
+  for (size_t lines = 0; !text.empty();) {
+    const size_t before = lines;
+    const std::string line = take_line(text, lines);
+    const auto statement = checked_statement(line, report);
+    if (!statement) return fail("line " + std::to_string(before + 1), statement.error().reason);
+    checked += *statement;
+    checked.append(lines - before, '\n');
+  }
+  return checked;
+}
+
+std::string checked_mtl_text(Bytes file) {
+  std::string_view text = text_of(file);
+  std::string checked;
+  for (size_t lines = 0; !text.empty();) {
+    const std::string line = take_line(text, lines);
+    std::string_view rest = line;
+    if (take_word(rest) == "newmtl") {
+      checked += "newmtl " + with_underscores(rest);
+    } else {
+      checked += trimmed(line);
+    }
+    checked += '\n';
+  }
+  return checked;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
+
+namespace lightwell {
+
+/// True when the first statement of a text is one of OBJ.
+bool is_obj(Bytes bytes);
+
+/// The text of an OBJ file as tinyobjloader reads it well. That library takes words that are no numbers for zeros,
+/// counts a face's corners in eight bits, ends names at spaces, knows no continued lines, and lets a short line reserve
+/// much memory. So every line is checked here first, errors naming it; statements that Lightwell does not use are left
+/// out (points, lines and curves with a warning), continued lines are joined, and spaces in names become underscores.
+/// Lines keep their numbers.
+Result<std::string> checked_obj_text(Bytes file, Report& report);
+
+/// The text of an MTL file with spaces in the materials' names replaced in the same way.
+std::string checked_mtl_text(Bytes file);
+
+}  // namespace lightwell
