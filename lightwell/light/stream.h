@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -81,7 +82,7 @@ class LightDecoder {
   LightLayout layout_;
   LightOrder order_;
   RecordField records_;
-  RecordCoder coder_;
+  std::unique_ptr<RecordCoder> coder_;  ///< too large for a WebAssembly stack
   LightGrid grid_;
   size_t at_ = 0;      ///< nodes of order_ that have arrived
   size_t bundle_ = 0;  ///< bundles that have arrived

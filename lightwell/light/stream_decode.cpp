@@ -51,7 +51,10 @@ Result<LightLayout> LightLayout::read(Bytes parameters) {
 }
 
 LightDecoder::LightDecoder(const LightLayout& layout)
-    : layout_(layout), order_(light_order(layout.shape, layout.seed, layout.nodes_per_slice)), records_(layout.shape) {
+    : layout_(layout),
+      order_(light_order(layout.shape, layout.seed, layout.nodes_per_slice)),
+      records_(layout.shape),
+      coder_(std::make_unique<RecordCoder>()) {
   grid_.shape = layout.shape;
   grid_.normal_offset = layout.normal_offset;
   grid_.moments.resize(layout.shape.count());
@@ -71,11 +74,11 @@ Result<LightDecoder> LightDecoder::open(Bytes parameters) {
 Result<void> LightDecoder::append(Bytes payload) {
   if (complete()) return fail("light bundle", "the grid is complete already");
   const size_t end = order_.ends[bundle_];
-  RecordCoder coder = coder_;
+  auto coder = std::make_unique<RecordCoder>(*coder_);
   Reader reader{RangeDecoder(payload)};
   for (size_t i = at_; i < end; i++) {
     MomentsRecord record;
-    coder.code(reader, record, records_, order_.nodes[i]);
+    coder->code(reader, record, records_, order_.nodes[i]);
     records_.set(order_.nodes[i], record);
   }
   if (reader.decoder.overrun()) {
@@ -83,7 +86,7 @@ Result<void> LightDecoder::append(Bytes payload) {
     return fail("light bundle", "ends too early");
   }
   for (; at_ < end; at_++) publish(order_.nodes[at_]);
-  coder_ = coder;
+  coder_ = std::move(coder);
   bundle_++;
   return {};
 }
