@@ -10,7 +10,7 @@ _LIBCPP_BEGIN_NAMESPACE_STD
 void __libcpp_verbose_abort(const char*, ...) { __builtin_trap(); }
 _LIBCPP_END_NAMESPACE_STD
 
-extern "C" [[noreturn]] void abort() { __builtin_trap(); }
+extern "C" void abort() { __builtin_trap(); }
 
 void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lightwell/base/result.h"
+
+namespace lightwell {
+
+struct ServerOptions {
+  std::string bind = "127.0.0.1";
+  uint16_t port = 8080;                      ///< 0: any free one
+  std::vector<std::filesystem::path> packs;  ///< files, or folders of *.glb
+  std::filesystem::path page;                ///< the folder with the page's index.html; empty: no page
+  size_t max_connections = 1024;             ///< more wait in the system's queue
+  std::chrono::milliseconds idle{60000};     ///< for a whole request header, from the end of the response before it
+  std::chrono::milliseconds slow{30000};     ///< for every 16 KB that a client has to take
+  std::chrono::milliseconds farewell{5000};  ///< for responses under way when the server is stopped
+};
+
+/// An HTTP/1.1 server for packs and the page: GET and HEAD with byte ranges, strong ETags and CORS. One thread,
+/// asynchronous; bodies of files go out by sendfile, so that a connection needs a few kilobytes whatever it downloads.
+/// No TLS, no compression, no HTTP/2: those are a proxy's.
+///
+///   /             the page, /... its files
+///   /packs/NAME   a pack
+///   /packs.json   the list of packs
+///   /healthz      "ok"
+class Server {
+ public:
+  /// Opens the port. The process ignores SIGPIPE from then on.
+  static Result<Server> listen(const ServerOptions& options);
+  Server(Server&&) noexcept;
+  Server& operator=(Server&&) noexcept;
+  ~Server();
+
+  /// The port that is listened on.
+  uint16_t port() const;
+  /// Serves until stop() is called.
+  void run();
+  /// Ends run(): no new connection, idle ones are closed, responses under way are finished. May be called from any
+  /// thread and from a signal handler.
+  void stop();
+
+ private:
+  class Loop;
+  explicit Server(std::unique_ptr<Loop> loop);
+  std::unique_ptr<Loop> loop_;
+};
+
+}  // namespace lightwell

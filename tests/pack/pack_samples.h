@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "lightwell/base/random.h"
+#include "lightwell/pack/reader.h"
+#include "lightwell/pack/writer.h"
+
+namespace lightwell {
+
+inline std::vector<uint8_t> random_bytes(Random& random, size_t length) {
+  std::vector<uint8_t> bytes(length);
+  for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random.bits());
+  return bytes;
+}
+
+/// A stream of random blocks of 1 ... `longest` bytes.
+inline PackStream random_stream(Random& random, StreamKind kind, uint32_t blocks, uint32_t longest) {
+  PackStream stream;
+  stream.kind = kind;
+  stream.codec = static_cast<uint8_t>(random.below(4));
+  stream.error = static_cast<float>(blocks + 1);
+  stream.parameters = random_bytes(random, random.below(40));
+  for (uint32_t i = 0; i < blocks; i++)
+    stream.blocks.push_back(
+        {random_bytes(random, 1 + random.below(longest)), random.below(1000), static_cast<float>(blocks - i)});
+  return stream;
+}
+
+/// Streams whose numbers of blocks stand on both sides of the pages' borders.
+inline std::vector<PackStream> random_streams(uint64_t seed) {
+  Random random(seed, 0);
+  std::vector<PackStream> streams;
+  for (const uint32_t blocks : {0u, 1u, 63u, 64u, 65u, 128u, 129u, 200u})
+    streams.push_back(random_stream(random, static_cast<StreamKind>(random.below(3)), blocks, 50));
+  return streams;
+}
+
+inline std::vector<uint8_t> make_pack(std::vector<uint8_t> bin, std::vector<PackStream> streams,
+                                      std::string json = "{\"asset\":{}}") {
+  return PackWriter::create(std::move(bin), std::move(streams)).value().finish(std::move(json)).value();
+}
+
+/// Reads from bytes in memory, which must outlive it.
+inline FetchBytes from_memory(Bytes file) {
+  return [file](uint64_t first, uint64_t length) -> Result<std::vector<uint8_t>> {
+    if (first > file.size() || length > file.size() - first) return fail("memory", "is too short");
+    const Bytes part = file.subspan(first, length);
+    return std::vector<uint8_t>(part.begin(), part.end());
+  };
+}
+
+}  // namespace lightwell
