@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <map>
+
+// Boost 1.74's asio uses std::exchange without including <utility>.
+// clang-format off
+#include <utility>
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+// clang-format on
+
+#include "lightwell/transport/transport.h"
+
+namespace lightwell {
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+struct Url {
+  std::string host;
+  std::string port = "80";
+  std::string target = "/";
+};
+
+std::optional<Url> parse_url(std::string_view text) {
+  constexpr std::string_view scheme = "http://";
+  if (!text.starts_with(scheme)) return std::nullopt;
+  text.remove_prefix(scheme.size());
+  Url url;
+  const size_t slash = std::min(text.find('/'), text.size());
+  const std::string_view authority = text.substr(0, slash);
+  if (slash < text.size()) url.target = text.substr(slash, text.find('#', slash) - slash);
+  const size_t colon = authority.find(':');
+  url.host = authority.substr(0, colon);
+  if (colon != std::string_view::npos) url.port = authority.substr(colon + 1);
+  const bool printable = std::ranges::all_of(url.target, [](char c) { return c > ' ' && c < 0x7f; });
+  if (url.host.empty() || url.port.empty() || !printable) return std::nullopt;
+  return url;
+}
+
+/// The server, and the events that its answers bring.
+struct Exchange {
+  asio::io_context io;
+  Url url;
+  tcp::resolver::results_type addresses;
+  std::deque<TransportEvent> events;
+};
+
+/// One connection, which carries one request at a time.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  explicit Connection(Exchange& exchange) : exchange_(exchange), socket_(exchange.io) {}
+
+  bool idle() const { return !busy_ && socket_.is_open(); }
+  bool dead() const { return !busy_ && !socket_.is_open(); }
+  uint32_t request() const { return request_; }
+
+  void start(uint32_t request, uint64_t first, uint64_t last) {
+    request_ = request;
+    busy_ = true;
+    reused_ = socket_.is_open();
+    question_ = {http::verb::get, exchange_.url.target, 11};
+    question_.set(http::field::host, exchange_.url.host + ":" + exchange_.url.port);
+    question_.set(http::field::range, "bytes=" + std::to_string(first) + "-" + std::to_string(last));
+    if (reused_)
+      write();
+    else
+      connect();
+  }
+
+  /// Drops the request and the connection with it; no event comes any more.
+  void abandon() {
+    busy_ = false;
+    close();
+  }
+
+ private:
+  void connect() {
+    reused_ = false;
+    socket_ = tcp::socket(exchange_.io);
+    buffer_.clear();
+    asio::async_connect(socket_, exchange_.addresses,
+                        [self = shared_from_this()](error_code error, const tcp::endpoint&) {
+                          if (error || !self->busy_) return self->failed();
+                          error_code ignored;
+                          self->socket_.set_option(tcp::no_delay(true), ignored);
+                          self->write();
+                        });
+  }
+
+  void write() {
+    http::async_write(socket_, question_, [self = shared_from_this()](error_code error, size_t) {
+      if (error) return self->failed_before_answer();
+      self->read_head();
+    });
+  }
+
+  void read_head() {
+    parser_.emplace();
+    parser_->body_limit(boost::none);
+    http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
+      if (error) return self->failed_before_answer();
+      self->on_head();
+    });
+  }
+
+  void on_head() {
+    if (!busy_) return;
+    const auto& head = parser_->get();
+    TransportEvent event{TransportEvent::Kind::head, request_, static_cast<int>(head.result_int()), {}, {}, {}};
+    event.content_range = std::string(head[http::field::content_range]);
+    event.etag = std::string(head[http::field::etag]);
+    exchange_.events.push_back(std::move(event));
+    read_body();
+  }
+
+  void read_body() {
+    if (parser_->is_done()) return finished();
+    parser_->get().body().data = piece_.data();
+    parser_->get().body().size = piece_.size();
+    http::async_read_some(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
+      if (error && error != http::error::need_buffer) return self->failed();
+      self->on_body();
+    });
+  }
+
+  void on_body() {
+    if (!busy_) return;
+    const size_t length = piece_.size() - parser_->get().body().size;
+    if (length > 0)
+      exchange_.events.push_back({TransportEvent::Kind::bytes,
+                                  request_,
+                                  0,
+                                  {},
+                                  {},
+                                  {piece_.begin(), piece_.begin() + static_cast<std::ptrdiff_t>(length)}});
+    read_body();
+  }
+
+  void finished() {
+    busy_ = false;
+    exchange_.events.push_back({TransportEvent::Kind::end, request_, 0, {}, {}, {}});
+    if (!parser_->keep_alive()) close();
+  }
+
+  /// A server may close an idle connection at any moment: that is no failure yet.
+  void failed_before_answer() {
+    if (busy_ && reused_) return connect();
+    failed();
+  }
+
+  void failed() {
+    if (busy_) exchange_.events.push_back({TransportEvent::Kind::failed, request_, 0, {}, {}, {}});
+    abandon();
+  }
+
+  void close() {
+    error_code ignored;
+    socket_.close(ignored);
+  }
+
+  Exchange& exchange_;
+  tcp::socket socket_;
+  beast::flat_buffer buffer_;
+  http::request<http::empty_body> question_;
+  std::optional<http::response_parser<http::buffer_body>> parser_;
+  std::array<uint8_t, 16384> piece_{};
+  uint32_t request_ = 0;
+  bool busy_ = false;
+  bool reused_ = false;
+};
+
+class HttpTransport final : public Transport {
+ public:
+  Result<void> open(Url url) {
+    error_code error;
+    tcp::resolver resolver(exchange_.io);
+    exchange_.addresses = resolver.resolve(url.host, url.port, error);
+    if (error) return fail(url.host, error.message());
+    exchange_.url = std::move(url);
+    return {};
+  }
+
+  double now() override { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  void ask(uint32_t request, uint64_t first, uint64_t last) override {
+    std::erase_if(connections_, [](const auto& connection) { return connection->dead(); });
+    auto free = std::ranges::find_if(connections_, [](const auto& connection) { return connection->idle(); });
+    if (free == connections_.end()) {
+      connections_.push_back(std::make_shared<Connection>(exchange_));
+      free = connections_.end() - 1;
+    }
+    (*free)->start(request, first, last);
+  }
+
+  void cancel(uint32_t request) override {
+    std::erase_if(connections_, [&](const auto& connection) {
+      if (connection->request() != request || connection->idle()) return false;
+      connection->abandon();
+      return true;
+    });
+    std::erase_if(exchange_.events, [&](const TransportEvent& event) { return event.request == request; });
+  }
+
+  std::optional<TransportEvent> wait(double until) override {
+    while (exchange_.events.empty()) {
+      const double left = std::clamp(until - now(), 0.0, 3600.0);
+      exchange_.io.restart();
+      const size_t ran = exchange_.io.run_one_for(
+          std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::duration<double>(left)));
+      if (ran > 0) continue;
+      if (now() >= until) return std::nullopt;
+      // Nothing is under way: io has no work and returns at once.
+      asio::steady_timer timer(
+          exchange_.io, std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::duration<double>(left)));
+      timer.wait();
+    }
+    TransportEvent event = std::move(exchange_.events.front());
+    exchange_.events.pop_front();
+    return event;
+  }
+
+ private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Exchange exchange_;
+  std::vector<std::shared_ptr<Connection>> connections_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Transport>> http_transport(const std::string& url) {
+  std::optional<Url> parsed = parse_url(url);
+  if (!parsed) return fail(url, "is not a URL of the form http://host:port/path");
+  auto transport = std::make_unique<HttpTransport>();
+  LW_CHECK(transport->open(std::move(*parsed)));
+  return transport;
+}
+
+}  // namespace lightwell
