@@ -30,26 +30,27 @@ Vec3f triple(const std::vector<float>& values, size_t index) {
   return {{values[3 * index], values[3 * index + 1], values[3 * index + 2]}};
 }
 
-Result<void> check_finite(const std::vector<float>& values, size_t per_element, const char* name) {
-  for (size_t i = 0; i < values.size(); i++) {
-    if (!(std::abs(values[i]) <= farthest_position))
-      return fail(name + std::to_string(i / per_element + 1), "a number that is not finite, or beyond 1e9");
-  }
+bool in_range(const float* numbers, int count) {
+  return std::all_of(numbers, numbers + count, [](float v) { return std::abs(v) <= farthest_position; });
+}
+
+/// What is wrong with an attribute that a corner refers to; nothing when it need not have one and has none. The library
+/// only makes negative indices absolute.
+std::string fault_of(const std::vector<float>& values, int per_element, int index, bool required) {
+  if (index == -1 && !required) return {};
+  if (index < 0 || static_cast<size_t>(index) >= values.size() / static_cast<size_t>(per_element))
+    return "a face refers to a vertex that is not there";
+  if (!in_range(values.data() + static_cast<ptrdiff_t>(index) * per_element, per_element))
+    return "vertex " + std::to_string(index + 1) + " has a number that is not finite, or beyond 1e9";
   return {};
 }
 
-/// Holds every corner against the vertices that there are; the library only resolves negative indices.
-Result<void> check_corners(const Obj& obj) {
-  const auto within = [](int index, size_t size, bool required) {
-    return index < 0 ? index == -1 && !required : static_cast<size_t>(index) < size;
-  };
-  for (const tinyobj::shape_t& shape : obj.shapes) {
-    for (size_t i = 0; i < shape.mesh.indices.size(); i++) {
-      const tinyobj::index_t& corner = shape.mesh.indices[i];
-      if (!within(corner.vertex_index, obj.attributes.vertices.size() / 3, true) ||
-          !within(corner.normal_index, obj.attributes.normals.size() / 3, false) ||
-          !within(corner.texcoord_index, obj.attributes.texcoords.size() / 2, false))
-        return fail(shape.name.substr(0, 60), "a face refers to a vertex that is not there");
+Result<void> check_corners(const tinyobj::attrib_t& attributes, const tinyobj::shape_t& shape) {
+  for (const tinyobj::index_t& corner : shape.mesh.indices) {
+    for (const std::string& fault : {fault_of(attributes.vertices, 3, corner.vertex_index, true),
+                                     fault_of(attributes.normals, 3, corner.normal_index, false),
+                                     fault_of(attributes.texcoords, 2, corner.texcoord_index, false)}) {
+      if (!fault.empty()) return fail(shape.name.substr(0, 60), fault);
     }
   }
   return {};
@@ -80,11 +81,7 @@ Result<Obj> read_obj(const std::string& text, ObjMaterialReader& materials, Repo
     return fail("", exception.what());
   }
   report_warnings(warning, report);
-  LW_CHECK(check_finite(obj.attributes.vertices, 3, "v "));
-  LW_CHECK(check_finite(obj.attributes.normals, 3, "vn "));
-  LW_CHECK(check_finite(obj.attributes.texcoords, 2, "vt "));
-  LW_CHECK(check_finite(obj.attributes.colors, 3, "v "));
-  LW_CHECK(check_corners(obj));
+  for (const tinyobj::shape_t& shape : obj.shapes) LW_CHECK(check_corners(obj.attributes, shape));
   for (size_t i = 0; i < obj.attributes.vertices.size() / 3; i++)
     obj.positions.push_back(triple(obj.attributes.vertices, i));
   // The library gives white to vertices without a colour.

@@ -67,7 +67,7 @@ Result<Document> document_of(Bytes file, const std::filesystem::path& folder, Re
   if (file.empty()) return fail("", "is empty");
   // A PLY or OBJ file may begin like an STL, but not the other way round.
   if (is_ply(file)) return ply_document(file, report);
-  if (const auto format = unsupported_format(file)) return fail("", "is " + *format + ", which is not supported");
+  if (const auto format = unsupported_format(file)) return fail("", "cannot be read: it is " + *format);
   if (is_gltf(file)) return read_document(file, folder, report);
   if (is_obj(file)) return obj_document(file, folder, report);
   return fail("", "is neither glTF, OBJ nor PLY");
