@@ -10,7 +10,8 @@
 //   probesResolution   size of the box of the nodes in the world: x negative when the world mirrors the grid, z always negated
 // which is what Matrix4.decompose gives for (the object's matrix times a translation to the grid's first node), the
 // scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
-// in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the form "patched" of the values.
+// in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the form "patched" of the values. Red of texel (1, 0, 0) is
+// 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there.
 
 #if NUM_LIGHT_PROBE_GRIDS > 0
 
@@ -108,9 +109,10 @@ struct LightProbeSample {
 	float weight;    // by which they are to be divided
 	mat3 toGrid;
 	bool reflects;   // whether metals take their reflection from here: in grids of Lightwell's
+	bool sky;        // whether the light of the environment is in it already
 };
 
-LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, mat3( 1.0 ), false );
+LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, mat3( 1.0 ), false, false );
 
 // Seven fetches, filtered by the hardware: the 28 channels of the seven sub-volumes stacked along z.
 void fetchLightProbes( highp sampler3D probesSH, vec3 uvw ) {
@@ -168,6 +170,7 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 	if ( ! ours ) lightProbeSample.weight = 1.0;
 	lightProbeSample.toGrid = lookup.toGrid;
 	lightProbeSample.reflects = ours;
+	lightProbeSample.sky = ours && texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 ).r > 0.5;
 	return evaluateLightProbes( lookup.normal );
 
 }

@@ -3,8 +3,9 @@
 // Builds dist/: the package (core.js, three.js, element.js, with three.js left to its user), the worker, the page and, when
 // its path is given, lightwell.wasm:   node build.mjs [WASM]
 import { spawnSync } from 'node:child_process';
-import { copyFile, mkdir, readFile, rm } from 'node:fs/promises';
+import { copyFile, mkdir, rm } from 'node:fs/promises';
 import { build } from 'esbuild';
+import { glslPlugin } from './glsl_plugin.mjs';
 
 const common = {
   bundle: true,
@@ -16,21 +17,10 @@ const common = {
   logLevel: 'warning',
 };
 
-/** Shader text without comments, empty lines and indentation; preprocessor lines stay lines of their own. */
-const glsl = {
-  name: 'glsl',
-  setup(builder) {
-    builder.onLoad({ filter: /\.glsl$/ }, async ({ path }) => {
-      const lines = (await readFile(path, 'utf8')).split('\n').map((line) => line.replace(/\/\/.*$/, '').trim());
-      return { contents: `\n${lines.filter(Boolean).join('\n')}\n`, loader: 'text' };
-    });
-  },
-};
-
 process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });
 await mkdir('dist');
-const plugins = [glsl];
+const plugins = [glslPlugin];
 await Promise.all([
   build({
     ...common,
