@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "lightwell/base/progress.h"
@@ -33,7 +34,21 @@ struct ProgressiveMesh {
   uint32_t base_points = 0;
   uint32_t base_faces = 0;
   uint32_t loose_faces = 0;
+  std::vector<uint32_t>
+      appears_with;          ///< of each face that is not loose: the vertex whose split adds it; 0 in the base
   std::vector<Pass> passes;  ///< coarse to fine
+
+  uint32_t base_vertices() const { return first_of_point[base_points]; }
+  /// The point of a vertex.
+  uint32_t point_of(uint32_t v) const {
+    return static_cast<uint32_t>(std::upper_bound(first_of_point.begin(), first_of_point.end(), v) -
+                                 first_of_point.begin() - 1);
+  }
+  /// The vertex below n that vertex v is refined from: itself when it is below n.
+  uint32_t ancestor(uint32_t v, uint32_t n) const {
+    while (v >= n) v = parent[v];
+    return v;
+  }
 };
 
 /// Quantises the mesh and orders it by half-edge collapse. Errors: a position that is not finite; cancelled by the

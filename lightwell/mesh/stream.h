@@ -15,7 +15,10 @@
 namespace lightwell {
 
 struct ProgressiveMesh;
-class Refinement;
+
+/// Vertices and faces that a byte of a stream may stand for at most: a decoder knows how much memory a stream may ask
+/// for. Encoders pad a payload that is shorter.
+inline constexpr uint32_t elements_per_byte = 16;
 
 /// What a client must know of a mesh stream before its first block: the stream's parameters in docs/format.md.
 struct MeshLayout {
@@ -28,8 +31,10 @@ struct MeshLayout {
   std::array<Lattice, 2> texcoords;
   float base_error = 0;  ///< distance of the coarsest level from the final one, in the mesh's units; an estimate
 
+  /// Says what is impossible about the counts and lattices, if anything is.
+  Result<void> check() const;
   void write(ByteWriter& writer) const;
-  /// Reads what write() wrote. Errors: too short, an unknown flag, counts or exponents that contradict each other.
+  /// Reads what write() wrote and checks it. Errors: too short, an unknown flag, check().
   static Result<MeshLayout> read(ByteReader& reader);
 };
 
@@ -107,9 +112,9 @@ class MeshDecoder {
   MeshChanges take_changes();
 
  private:
-  explicit MeshDecoder(std::unique_ptr<Refinement> mesh);
-
   struct State;
+  explicit MeshDecoder(std::unique_ptr<State> state);
+
   std::unique_ptr<State> state_;
 };
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lightwell/base/progress.h"
+#include "lightwell/base/result.h"
+#include "lightwell/mesh/quantize.h"
+
+namespace lightwell {
+
+inline constexpr uint32_t no_vertex = 0xffffffffu;
+
+/// The points of a mesh (distinct positions). Vertices of one point follow one another.
+struct Points {
+  std::vector<uint32_t> first;  ///< point i has the vertices first[i] up to first[i + 1]
+  std::vector<uint32_t> of;     ///< the point of each vertex
+
+  explicit Points(const std::vector<Vec3i>& positions);
+  uint32_t count() const { return static_cast<uint32_t>(first.size() - 1); }
+};
+
+/// In which order the points of a mesh collapse onto neighbours, with all their vertices and without moving any.
+struct CollapseOrder {
+  /// Collapses that do not depend on each other: no two removed points share a face, no target is removed.
+  struct Round {
+    std::vector<uint32_t> removed;  ///< points
+    float error = 0;                ///< root mean square distance to the input after this round; an estimate
+  };
+
+  static constexpr uint32_t never = 0xffffffffu, loose = 0xfffffffeu;
+
+  std::vector<Round> rounds;       ///< fine to coarse
+  std::vector<uint32_t> target;    ///< of each point: the one it collapsed onto; itself when it stays
+  std::vector<uint32_t> parent;    ///< of each vertex: the one that took its place; itself when it stays
+  std::vector<uint32_t> vanished;  ///< of each face: its corner whose collapse removed it; never; or loose
+};
+
+/// Orders all points of a mesh until at most `vertices` vertices are left or hardly anything can collapse any more. No
+/// collapse is forbidden, so that any mesh becomes small: one that would change the topology, turn a face over or tear
+/// attributes is charged as an error of the size of what may vanish. Faces that have two corners at one point or repeat
+/// another are loose: they take no part. Fails only when cancelled.
+///
+/// Quadric error metric after Garland and Heckbert (1997), half-edge form; rounds of independent removals as in the
+/// multiresolution hierarchies of Dobkin and Kirkpatrick (1985).
+Result<CollapseOrder> collapse_order(const QuantizedMesh& mesh, const Points& points, uint32_t vertices,
+                                     Progress& progress);
+
+}  // namespace lightwell

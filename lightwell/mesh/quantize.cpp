@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/mesh/quantize.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "lightwell/base/assert.h"
+
+namespace lightwell {
+namespace {
+
+constexpr float largest_coordinate = 1e37f;
+constexpr int default_bits = 14, most_bits = 21;
+constexpr int texcoord_exponent = -14;  // a quarter of a texel of 4096
+
+// Longest side and largest magnitude of some values.
+struct Extent {
+  double side = 0, magnitude = 0;
+};
+
+template <int N>
+Extent extent_of(const std::vector<Vec<float, N>>& values, const std::vector<bool>& used) {
+  Vec<double, N> lo = Vec<double, N>::filled(std::numeric_limits<double>::infinity()), hi = -lo;
+  for (size_t v = 0; v < values.size(); v++)
+    if (used[v] && is_finite(values[v])) {
+      lo = min(lo, values[v].template cast<double>());
+      hi = max(hi, values[v].template cast<double>());
+    }
+  if (lo[0] > hi[0]) return {};
+  return {max_component(hi - lo), std::max(max_component(hi), max_component(-lo))};
+}
+
+// The exponent of the lattice nearest to the wanted one on which the extent has at most 21 bits and every value is an
+// exact float.
+Lattice lattice_for(int wanted, const Extent& extent) {
+  int exponent = wanted;
+  if (extent.side > 0) exponent = std::max(exponent, std::ilogb(extent.side) - (most_bits - 1));
+  if (extent.magnitude > 0)
+    exponent = std::max(exponent, std::ilogb(extent.magnitude) + 1 - std::ilogb(Lattice::limit));
+  return {static_cast<int8_t>(std::clamp(exponent, Lattice::min_exponent, Lattice::max_exponent))};
+}
+
+Lattice position_lattice(const Extent& extent, const QuantizeOptions& options) {
+  if (options.position_error > 0) return lattice_for(std::ilogb(2.0 * options.position_error), extent);
+  const double step = extent.side / ((1 << default_bits) - 1);
+  return lattice_for(step > 0 ? std::ilogb(step) : Lattice::min_exponent, extent);
+}
+
+// The lowest 21 bits of x with two zeros between each.
+uint64_t spread(uint32_t x) {
+  uint64_t s = x & 0x1fffff;
+  s = (s | s << 32) & 0x1f00000000ffff;
+  s = (s | s << 16) & 0x1f0000ff0000ff;
+  s = (s | s << 8) & 0x100f00f00f00f00f;
+  s = (s | s << 4) & 0x10c30c30c30c30c3;
+  return (s | s << 2) & 0x1249249249249249;
+}
+
+// One vertex in integers; equal tuples are one vertex. Compared by place along the Morton curve first.
+struct Tuple {
+  uint64_t morton = 0;
+  Vec3i position;
+  NormalCode normal;
+  std::array<Vec<int, 2>, 2> texcoords;
+  std::array<uint8_t, 4> color{};
+  uint32_t source = 0;
+
+  auto key() const { return std::tie(morton, position, normal, texcoords, color); }
+};
+
+std::array<uint8_t, 4> color_codes(const Vec4f& color) {
+  return {color_code(color[0]), color_code(color[1]), color_code(color[2]), color_code(color[3])};
+}
+
+std::vector<Tuple> tuples_of(const Mesh& mesh, const std::vector<bool>& used, const QuantizedMesh& lattices) {
+  std::vector<Tuple> tuples;
+  Vec3i lowest = Vec3i::filled(Lattice::limit);
+  for (size_t v = 0; v < mesh.positions.size(); v++) {
+    if (!used[v]) continue;
+    Tuple t;
+    for (int i = 0; i < 3; i++) t.position[i] = lattices.position_lattice.code(mesh.positions[v][i]);
+    if (!mesh.normals.empty()) t.normal = normal_code(mesh.normals[v]);
+    for (size_t set = 0; set < 2; set++)
+      if (!mesh.texcoords[set].empty())
+        for (int i = 0; i < 2; i++)
+          t.texcoords[set][i] = lattices.texcoord_lattices[set].code(mesh.texcoords[set][v][i]);
+    if (!mesh.colors.empty()) t.color = color_codes(mesh.colors[v]);
+    t.source = static_cast<uint32_t>(v);
+    lowest = min(lowest, t.position);
+    tuples.push_back(t);
+  }
+  for (Tuple& t : tuples) {
+    const Vec3i p = t.position - lowest;
+    for (int i = 0; i < 3; i++) t.morton |= spread(static_cast<uint32_t>(p[i])) << i;
+  }
+  return tuples;
+}
+
+void append(QuantizedMesh& out, const Tuple& t, const Mesh& mesh) {
+  out.positions.push_back(t.position);
+  if (!mesh.normals.empty()) out.normals.push_back(t.normal);
+  for (size_t set = 0; set < 2; set++)
+    if (!mesh.texcoords[set].empty()) out.texcoords[set].push_back(t.texcoords[set]);
+  if (!mesh.colors.empty()) out.colors.push_back(t.color);
+}
+
+}  // namespace
+
+Result<QuantizedMesh> quantize(const Mesh& mesh, const QuantizeOptions& options) {
+  std::vector<bool> used(mesh.positions.size());
+  for (const Face& face : mesh.faces)
+    for (const uint32_t v : face) {
+      LW_ASSERT(v < used.size());
+      used[v] = true;
+    }
+  for (size_t v = 0; v < used.size(); v++)
+    for (int i = 0; i < 3; i++)
+      if (used[v] && !(std::abs(mesh.positions[v][i]) <= largest_coordinate))
+        return fail("vertex " + std::to_string(v), "its position is not finite or beyond 1e37");
+
+  QuantizedMesh out;
+  out.position_lattice = position_lattice(extent_of(mesh.positions, used), options);
+  for (size_t set = 0; set < 2; set++)
+    if (!mesh.texcoords[set].empty())
+      out.texcoord_lattices[set] = lattice_for(texcoord_exponent, extent_of(mesh.texcoords[set], used));
+
+  std::vector<Tuple> tuples = tuples_of(mesh, used, out);
+  std::sort(tuples.begin(), tuples.end(), [](const Tuple& a, const Tuple& b) { return a.key() < b.key(); });
+  std::vector<uint32_t> vertex_of(used.size());
+  for (size_t i = 0; i < tuples.size(); i++) {
+    if (i == 0 || tuples[i - 1].key() != tuples[i].key()) append(out, tuples[i], mesh);
+    vertex_of[tuples[i].source] = static_cast<uint32_t>(out.positions.size() - 1);
+  }
+  out.faces.reserve(mesh.faces.size());
+  for (const Face& f : mesh.faces) out.faces.push_back({vertex_of[f[0]], vertex_of[f[1]], vertex_of[f[2]]});
+  return out;
+}
+
+Mesh dequantize(const QuantizedMesh& mesh) {
+  Mesh out;
+  out.faces = mesh.faces;
+  for (const Vec3i& p : mesh.positions) {
+    const Lattice& lattice = mesh.position_lattice;
+    out.positions.push_back({{lattice.value(p[0]), lattice.value(p[1]), lattice.value(p[2])}});
+  }
+  for (const NormalCode n : mesh.normals) out.normals.push_back(normal_of(n));
+  for (size_t set = 0; set < 2; set++)
+    for (const Vec<int, 2>& t : mesh.texcoords[set]) {
+      const Lattice& lattice = mesh.texcoord_lattices[set];
+      out.texcoords[set].push_back({{lattice.value(t[0]), lattice.value(t[1])}});
+    }
+  for (const std::array<uint8_t, 4>& c : mesh.colors)
+    out.colors.push_back({{color_of(c[0]), color_of(c[1]), color_of(c[2]), color_of(c[3])}});
+  return out;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/mesh/refinement.h"
+
+#include <algorithm>
+
+namespace lightwell {
+namespace {
+
+constexpr uint32_t no_corner = 0xffffffffu;
+// Runs of changed indices closer to each other than this are one upload.
+constexpr uint32_t mergeable_gap = 256;
+
+int16_t normal_channel(float x) { return static_cast<int16_t>(std::floor(x * 32767.0f + 0.5f)); }
+
+// Puts each spoke behind the one whose face shares an edge with its own; a fan with ends begins at one.
+void chain(std::vector<Spoke>& fan) {
+  const auto begins = [&](const Spoke& s) {
+    return std::none_of(fan.begin(), fan.end(), [&](const Spoke& other) { return other.b == s.a; });
+  };
+  const auto end = std::find_if(fan.begin(), fan.end(), begins);
+  if (end != fan.end()) std::swap(*fan.begin(), *end);
+  for (size_t i = 1; i < fan.size(); i++) {
+    const auto rest = fan.begin() + static_cast<ptrdiff_t>(i);
+    const auto next = std::find_if(rest, fan.end(), [&](const Spoke& s) { return s.a == fan[i - 1].b; });
+    if (next != fan.end()) std::swap(*rest, *next);
+  }
+}
+
+bool fits(size_t count, bool present, uint32_t wanted) { return count == (present ? wanted : 0); }
+
+}  // namespace
+
+Refinement::Refinement(const MeshLayout& layout) : layout_(layout) {
+  position_buffer.resize(layout.vertices);
+  if (layout.has_normals) normal_buffer.resize(layout.vertices);
+  for (size_t set = 0; set < 2; set++)
+    if (layout.has_texcoords[set]) texcoord_buffers[set].resize(layout.vertices);
+  if (layout.has_colors) color_buffer.resize(layout.vertices);
+  index_buffer.resize(size_t(3) * layout.faces);
+  first_corner_.resize(layout.vertices, no_corner);
+  fan_size_.resize(layout.vertices);
+  next_corner_.resize(size_t(3) * (layout.faces - layout.loose_faces), no_corner);
+}
+
+Result<Refinement> Refinement::open(const MeshLayout& layout, const MeshArrays& base) {
+  const uint32_t count = layout.base_vertices;
+  if (base.positions.size() != count || !fits(base.normals.size(), layout.has_normals, count) ||
+      !fits(base.texcoords[0].size(), layout.has_texcoords[0], count) ||
+      !fits(base.texcoords[1].size(), layout.has_texcoords[1], count) ||
+      !fits(base.colors.size(), layout.has_colors, count))
+    return fail("mesh stream", "the coarsest level's vertices are not those of the layout");
+  if (base.indices.size() != size_t(3) * layout.base_faces)
+    return fail("mesh stream", "the coarsest level's faces are not those of the layout");
+  if (std::any_of(base.indices.begin(), base.indices.end(), [&](uint32_t v) { return v >= count; }))
+    return fail("mesh stream", "an index of the coarsest level is out of range");
+  Refinement mesh(layout);
+  mesh.add_base(base);
+  return mesh;
+}
+
+void Refinement::add_base(const MeshArrays& base) {
+  NewVertex vertex;
+  Vec3i last;
+  for (uint32_t v = 0; v < layout_.base_vertices; v++) {
+    for (int i = 0; i < 3; i++) vertex.position[i] = layout_.positions.code(base.positions[v][i]);
+    if (layout_.has_normals) vertex.normal = normal_code(base.normals[v]);
+    for (size_t set = 0; set < 2; set++)
+      if (layout_.has_texcoords[set])
+        for (int i = 0; i < 2; i++) vertex.texcoords[set][i] = layout_.texcoords[set].code(base.texcoords[set][v][i]);
+    if (layout_.has_colors) vertex.color = base.colors[v];
+    add(vertex, v == 0 || vertex.position != last);
+    last = vertex.position;
+  }
+  for (size_t i = 0; i < base.indices.size(); i += 3)
+    add_linked({base.indices[i], base.indices[i + 1], base.indices[i + 2]});
+}
+
+void Refinement::gather_fan(uint32_t vertex, std::vector<Spoke>& fan) const {
+  fan.clear();
+  for (uint32_t corner = first_corner_[vertex]; corner != no_corner; corner = next_corner_[corner]) {
+    const uint32_t place = corner % 3, face = corner - place;
+    fan.push_back({index_buffer[face + (place + 1) % 3], index_buffer[face + (place + 2) % 3], corner});
+  }
+  chain(fan);
+}
+
+Vec3i Refinement::position(uint32_t vertex) const {
+  const Vec3f& p = position_buffer[vertex];
+  return {{layout_.positions.exact_code(p[0]), layout_.positions.exact_code(p[1]), layout_.positions.exact_code(p[2])}};
+}
+
+Vec<int, 2> Refinement::texcoord(int set, uint32_t vertex) const {
+  const auto s = static_cast<size_t>(set);
+  const Vec2f& t = texcoord_buffers[s][vertex];
+  return {{layout_.texcoords[s].exact_code(t[0]), layout_.texcoords[s].exact_code(t[1])}};
+}
+
+void Refinement::add(const NewVertex& vertex, bool begins_point) {
+  const uint32_t v = vertices_++;
+  if (begins_point) first_of_point_.push_back(v);
+  set_attributes(vertex);
+
+  // The parent's list is made anew of the corners that stay.
+  if (!vertex.fan.empty()) {
+    first_corner_[vertex.parent] = no_corner;
+    fan_size_[vertex.parent] = 0;
+  }
+  for (size_t i = 0; i < vertex.fan.size(); i++) {
+    const uint32_t corner = vertex.fan[i].corner;
+    if (vertex.moves[i]) {
+      index_buffer[corner] = v;
+      if (corner < 3 * reported_faces_) rewired_.push_back(corner);
+    }
+    link(corner);
+  }
+  for (const NewFace& face : vertex.faces) add_linked({v, face.a, face.b});
+}
+
+void Refinement::set_attributes(const NewVertex& vertex) {
+  const uint32_t v = vertices_ - 1;
+  for (int i = 0; i < 3; i++) position_buffer[v][i] = layout_.positions.value(vertex.position[i]);
+  if (layout_.has_normals) {
+    const Vec3f n = normal_of(vertex.normal);
+    normal_buffer[v] = {normal_channel(n[0]), normal_channel(n[1]), normal_channel(n[2]), 0};
+  }
+  for (size_t set = 0; set < 2; set++)
+    if (layout_.has_texcoords[set])
+      for (int i = 0; i < 2; i++) texcoord_buffers[set][v][i] = layout_.texcoords[set].value(vertex.texcoords[set][i]);
+  if (layout_.has_colors) color_buffer[v] = vertex.color;
+}
+
+void Refinement::add_linked(const Face& face) {
+  const uint32_t first = 3 * faces_++;
+  for (uint32_t k = 0; k < 3; k++) {
+    index_buffer[first + k] = face[k];
+    link(first + k);
+  }
+}
+
+void Refinement::link(uint32_t corner) {
+  const uint32_t v = index_buffer[corner];
+  next_corner_[corner] = std::exchange(first_corner_[v], corner);
+  fan_size_[v]++;
+}
+
+void Refinement::add_loose(const Face& face) {
+  std::copy(face.begin(), face.end(), index_buffer.begin() + size_t(3) * faces_);
+  faces_++;
+}
+
+MeshChanges Refinement::take_changes() {
+  MeshChanges changes;
+  changes.vertices = {reported_vertices_, vertices_ - reported_vertices_};
+  changes.indices = {3 * reported_faces_, 3 * (faces_ - reported_faces_)};
+  std::sort(rewired_.begin(), rewired_.end());
+  for (const uint32_t corner : rewired_) {
+    auto& ranges = changes.rewired;
+    if (ranges.empty() || corner > ranges.back().first + ranges.back().count + mergeable_gap)
+      ranges.push_back({corner, 1});
+    else
+      ranges.back().count = corner - ranges.back().first + 1;
+  }
+  rewired_.clear();
+  reported_vertices_ = vertices_;
+  reported_faces_ = faces_;
+  return changes;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lightwell/mesh/stream.h"
+
+namespace lightwell {
+
+/// Most faces a vertex may have to be split, so that a hostile stream cannot make single splits expensive.
+inline constexpr uint32_t max_fan = 64;
+
+/// A face at a vertex: its other two corners in order, and the place of this corner in the index buffer.
+struct Spoke {
+  uint32_t a = 0, b = 0, corner = 0;
+
+  bool has(uint32_t v) const { return a == v || b == v; }
+};
+
+/// A face that comes with a new vertex: its other two corners in order. `source` is the encoder's own.
+struct NewFace {
+  uint32_t a = 0, b = 0, source = 0;
+};
+
+/// A vertex that a split adds: some of its parent's faces move to it, others are new.
+struct NewVertex {
+  uint32_t parent = 0;
+  std::vector<Spoke> fan;      ///< the parent's faces, each next to its neighbour where it can be
+  std::vector<uint8_t> moves;  ///< of each face of the fan: whether it moves to the new vertex
+  std::vector<NewFace> faces;
+  Vec3i position;
+  NormalCode normal;
+  std::array<Vec<int, 2>, 2> texcoords;
+  Color8 color{};
+};
+
+/// A mesh between its coarsest and its final level, in buffers of final size, with the faces at each vertex. Encoder
+/// and decoder keep equal ones.
+class Refinement {
+ public:
+  /// The coarsest level. Errors: arrays that do not fit the layout.
+  static Result<Refinement> open(const MeshLayout& layout, const MeshArrays& base);
+
+  const MeshLayout& layout() const { return layout_; }
+  uint32_t vertices() const { return vertices_; }
+  uint32_t faces() const { return faces_; }
+  /// The vertices of a point: [first_of_point(i), first_of_point(i + 1)).
+  uint32_t points() const { return static_cast<uint32_t>(first_of_point_.size()); }
+  uint32_t first_of_point(uint32_t point) const { return point < points() ? first_of_point_[point] : vertices_; }
+  uint32_t fan_size(uint32_t vertex) const { return fan_size_[vertex]; }
+  /// The faces at a vertex, ordered so that a face follows its neighbour; depends on nothing but the splits so far.
+  void gather_fan(uint32_t vertex, std::vector<Spoke>& fan) const;
+
+  Vec3i position(uint32_t vertex) const;
+  Vec<int, 2> texcoord(int set, uint32_t vertex) const;
+
+  /// Adds a vertex and rewires its faces. There must be room for it and for its faces; its parent, its fan and the
+  /// corners of its new faces must be what the mesh has (the vertex itself may be a corner).
+  void add(const NewVertex& vertex, bool begins_point);
+  /// Adds a face that no split will ever touch. There must be room for it.
+  void add_loose(const Face& face);
+
+  std::vector<Vec3f> position_buffer;
+  std::vector<Normal16> normal_buffer;
+  std::array<std::vector<Vec2f>, 2> texcoord_buffers;
+  std::vector<Color8> color_buffer;
+  std::vector<uint32_t> index_buffer;
+
+  MeshChanges take_changes();
+
+ private:
+  explicit Refinement(const MeshLayout& layout);
+  void add_base(const MeshArrays& base);
+  void set_attributes(const NewVertex& vertex);
+  void add_linked(const Face& face);
+  void link(uint32_t corner);
+
+  MeshLayout layout_;
+  uint32_t vertices_ = 0, faces_ = 0;
+  std::vector<uint32_t> first_of_point_;
+  // The corners at each vertex as a list through the index buffer's places.
+  std::vector<uint32_t> first_corner_, next_corner_, fan_size_;
+  // What take_changes() has reported, and the rewired places below it since.
+  uint32_t reported_vertices_ = 0, reported_faces_ = 0;
+  std::vector<uint32_t> rewired_;
+};
+
+}  // namespace lightwell

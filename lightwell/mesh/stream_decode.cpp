@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "lightwell/mesh/refinement.h"
+#include "lightwell/mesh/split_coder.h"
+#include "lightwell/mesh/stream.h"
+#include "lightwell/mesh/sweep.h"
+
+namespace lightwell {
+namespace {
+
+constexpr uint32_t most_elements = 1u << 30;
+// Visits of the sweep for each vertex. An encoder's pass refines at least one point in 128, but for the first.
+constexpr uint64_t visits_per_vertex = 256;
+
+tl::unexpected<Error> corrupt(std::string reason) { return fail("mesh block", std::move(reason)); }
+
+}  // namespace
+
+Result<MeshLayout> MeshLayout::read(ByteReader& reader) {
+  MeshLayout layout;
+  layout.vertices = reader.u32();
+  layout.faces = reader.u32();
+  layout.base_vertices = reader.u32();
+  layout.base_faces = reader.u32();
+  layout.loose_faces = reader.u32();
+  layout.base_error = reader.f32();
+  const uint8_t flags = reader.u8();
+  layout.has_normals = flags & 1;
+  layout.has_texcoords = {(flags & 2) != 0, (flags & 4) != 0};
+  layout.has_colors = flags & 8;
+  for (Lattice* lattice : {&layout.positions, &layout.texcoords[0], &layout.texcoords[1]})
+    lattice->exponent = static_cast<int8_t>(reader.u8());
+  if (!reader.ok()) return fail("mesh layout", "too short");
+  if (flags > 15) return fail("mesh layout", "an unknown attribute");
+  LW_CHECK(layout.check());
+  return layout;
+}
+
+Result<void> MeshLayout::check() const {
+  for (const Lattice& lattice : {positions, texcoords[0], texcoords[1]})
+    if (lattice.exponent < Lattice::min_exponent || lattice.exponent > Lattice::max_exponent)
+      return fail("mesh layout", "a lattice is out of range");
+  if (vertices > most_elements || faces > most_elements) return fail("mesh layout", "too large");
+  if (base_vertices > vertices || base_faces > faces || loose_faces > faces - base_faces)
+    return fail("mesh layout", "its coarsest level is larger than its final one");
+  return {};
+}
+
+struct MeshDecoder::State {
+  explicit State(Refinement base) : mesh(std::move(base)), sweep(mesh.points()) {}
+
+  Result<void> decode(Bytes payload);
+  Result<void> add_point(SplitReader& reader);
+  Result<void> add_vertex(SplitReader& reader, uint32_t parent_point, bool begins_point);
+  Result<void> add_loose_face(SplitReader& reader);
+
+  Refinement mesh;
+  Sweep sweep;
+  SplitCoder coder;
+  uint32_t left_of_pass = 0;
+  bool again = false;
+  bool failed = false;
+  NewVertex vertex;
+};
+
+Result<MeshDecoder> MeshDecoder::open(const MeshLayout& layout, const MeshArrays& base, uint64_t stream_bytes) {
+  LW_CHECK(layout.check());
+  const uint64_t added = uint64_t(layout.vertices - layout.base_vertices) + (layout.faces - layout.base_faces);
+  if (added / elements_per_byte > stream_bytes)
+    return fail("mesh stream", "it promises more vertices and faces than its bytes can hold");
+  LW_TRY(mesh, Refinement::open(layout, base));
+  return MeshDecoder(std::make_unique<State>(std::move(mesh)));
+}
+
+Result<void> MeshDecoder::append(Bytes payload) {
+  if (state_->failed) return fail("mesh block", "follows a corrupt one");
+  Result<void> result = state_->decode(payload);
+  state_->failed = !result;
+  return result;
+}
+
+Result<void> MeshDecoder::State::decode(Bytes payload) {
+  SplitReader reader(payload);
+  const uint32_t splits = coder.count(reader, 0);
+  for (uint32_t i = 0; i < splits; i++) LW_CHECK(add_point(reader));
+  const uint32_t loose = coder.count(reader, 0);
+  for (uint32_t i = 0; i < loose; i++) LW_CHECK(add_loose_face(reader));
+  if (reader.overrun()) return corrupt("too short");
+  return {};
+}
+
+Result<void> MeshDecoder::State::add_point(SplitReader& reader) {
+  if (left_of_pass == 0) {
+    left_of_pass = coder.count(reader, 0);
+    if (left_of_pass == 0 || mesh.points() == 0) return corrupt("an empty pass");
+    sweep.begin_pass();
+    again = false;
+    if (sweep.work() > visits_per_vertex * mesh.layout().vertices) return corrupt("too many passes");
+  }
+  while (!coder.splits(reader, mesh.fan_size(mesh.first_of_point(sweep.point())), again, false)) {
+    again = false;
+    if (!sweep.advance()) return corrupt("a pass with too few splits");
+  }
+  again = true;
+
+  const uint32_t parent = sweep.point(), child = mesh.points();
+  bool begins_point = true;
+  do {
+    LW_CHECK(add_vertex(reader, parent, begins_point));
+    begins_point = false;
+  } while (coder.one_more(reader, mesh.first_of_point(parent + 1) - mesh.first_of_point(parent), false));
+  sweep.add(child);
+  left_of_pass--;
+  return {};
+}
+
+Result<void> MeshDecoder::State::add_vertex(SplitReader& reader, uint32_t parent_point, bool begins_point) {
+  const MeshLayout& layout = mesh.layout();
+  if (mesh.vertices() == layout.vertices) return corrupt("too many vertices");
+  if (!coder.new_vertex(reader, mesh, parent_point, begins_point, vertex)) return corrupt("an impossible split");
+  if (reader.overrun()) return corrupt("too short");
+  if (vertex.faces.size() > layout.faces - layout.loose_faces - mesh.faces()) return corrupt("too many faces");
+  mesh.add(vertex, begins_point);
+  return {};
+}
+
+Result<void> MeshDecoder::State::add_loose_face(SplitReader& reader) {
+  const MeshLayout& layout = mesh.layout();
+  if (mesh.vertices() < layout.vertices || mesh.faces() < layout.faces - layout.loose_faces)
+    return corrupt("a loose face before the others");
+  if (mesh.faces() == layout.faces) return corrupt("too many loose faces");
+  Face face;
+  for (uint32_t& v : face) {
+    v = coder.vertex(reader, mesh, 0);
+    if (v >= mesh.vertices()) return corrupt("a corner out of range");
+  }
+  if (reader.overrun()) return corrupt("too short");
+  mesh.add_loose(face);
+  return {};
+}
+
+MeshDecoder::MeshDecoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
+MeshDecoder::MeshDecoder(MeshDecoder&&) noexcept = default;
+MeshDecoder& MeshDecoder::operator=(MeshDecoder&&) noexcept = default;
+MeshDecoder::~MeshDecoder() = default;
+
+const MeshLayout& MeshDecoder::layout() const { return state_->mesh.layout(); }
+uint32_t MeshDecoder::vertices() const { return state_->mesh.vertices(); }
+uint32_t MeshDecoder::faces() const { return state_->mesh.faces(); }
+bool MeshDecoder::complete() const { return vertices() == layout().vertices && faces() == layout().faces; }
+std::span<const Vec3f> MeshDecoder::positions() const { return state_->mesh.position_buffer; }
+std::span<const Normal16> MeshDecoder::normals() const { return state_->mesh.normal_buffer; }
+std::span<const Vec2f> MeshDecoder::texcoords(int set) const {
+  return state_->mesh.texcoord_buffers[static_cast<size_t>(set)];
+}
+std::span<const Color8> MeshDecoder::colors() const { return state_->mesh.color_buffer; }
+std::span<const uint32_t> MeshDecoder::indices() const { return state_->mesh.index_buffer; }
+MeshChanges MeshDecoder::take_changes() { return state_->mesh.take_changes(); }
+
+}  // namespace lightwell

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
+#include "lightwell/base/assert.h"
+#include "lightwell/mesh/progressive.h"
+#include "lightwell/mesh/split_coder.h"
+#include "lightwell/mesh/stream.h"
+#include "lightwell/mesh/sweep.h"
+
+namespace lightwell {
+namespace {
+
+// The first `count` values.
+template <typename T>
+std::vector<T> head(const std::vector<T>& values, size_t count) {
+  return {values.begin(), values.begin() + static_cast<ptrdiff_t>(std::min(count, values.size()))};
+}
+
+QuantizedMesh base_of(const ProgressiveMesh& mesh) {
+  QuantizedMesh base;
+  const uint32_t vertices = mesh.base_vertices();
+  base.position_lattice = mesh.mesh.position_lattice;
+  base.texcoord_lattices = mesh.mesh.texcoord_lattices;
+  base.positions = head(mesh.mesh.positions, vertices);
+  base.normals = head(mesh.mesh.normals, vertices);
+  for (size_t set = 0; set < 2; set++) base.texcoords[set] = head(mesh.mesh.texcoords[set], vertices);
+  base.colors = head(mesh.mesh.colors, vertices);
+  base.faces = head(mesh.mesh.faces, mesh.base_faces);
+  for (Face& face : base.faces)
+    for (uint32_t& v : face) v = mesh.ancestor(v, vertices);
+  return base;
+}
+
+MeshLayout layout_of(const ProgressiveMesh& mesh) {
+  MeshLayout layout;
+  layout.vertices = static_cast<uint32_t>(mesh.mesh.positions.size());
+  layout.faces = static_cast<uint32_t>(mesh.mesh.faces.size());
+  layout.base_vertices = mesh.base_vertices();
+  layout.base_faces = mesh.base_faces;
+  layout.loose_faces = mesh.loose_faces;
+  layout.has_normals = !mesh.mesh.normals.empty();
+  layout.has_colors = !mesh.mesh.colors.empty();
+  for (size_t set = 0; set < 2; set++) layout.has_texcoords[set] = !mesh.mesh.texcoords[set].empty();
+  layout.positions = mesh.mesh.position_lattice;
+  layout.texcoords = mesh.mesh.texcoord_lattices;
+  layout.base_error = mesh.passes.empty() ? 0 : mesh.passes[0].error;
+  return layout;
+}
+
+Refinement open_base(const MeshLayout& layout, const Mesh& base, const QuantizedMesh& codes) {
+  MeshArrays arrays;
+  arrays.positions = base.positions;
+  arrays.normals = base.normals;
+  for (size_t set = 0; set < 2; set++) arrays.texcoords[set] = base.texcoords[set];
+  arrays.colors = codes.colors;
+  arrays.indices = {base.faces.empty() ? nullptr : base.faces[0].data(), 3 * base.faces.size()};
+  auto mesh = Refinement::open(layout, arrays);
+  LW_ASSERT(mesh);
+  return std::move(*mesh);
+}
+
+// Replays the refinement as a decoder will and writes down each step.
+class Encoder {
+ public:
+  explicit Encoder(const ProgressiveMesh& mesh)
+      : mesh_(mesh), base_(base_of(mesh)), sweep_(mesh.base_points), next_face_(mesh.base_faces) {
+    out_.layout = layout_of(mesh);
+    out_.base = dequantize(base_);
+    level_.emplace(open_base(out_.layout, out_.base, base_));
+    for (uint32_t f = 0; f < mesh.base_faces; f++)
+      finals_.insert(finals_.end(), mesh.mesh.faces[f].begin(), mesh.mesh.faces[f].end());
+  }
+
+  EncodedMesh run(uint32_t block_vertices) {
+    const auto points = static_cast<uint32_t>(mesh_.first_of_point.size() - 1);
+    for (uint32_t point = mesh_.base_points; point < points;) {
+      uint32_t end = point + 1;
+      while (end < points && mesh_.first_of_point[end] - mesh_.first_of_point[point] < block_vertices) end++;
+      add_block(point, end, 0);
+      point = end;
+    }
+    for (uint32_t left = mesh_.loose_faces; left > 0;) {
+      const uint32_t count = std::min(left, block_vertices);
+      add_block(points, points, count);
+      left -= count;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void add_block(uint32_t point, uint32_t end, uint32_t loose) {
+    const uint32_t vertices = level_->vertices(), faces = level_->faces();
+    SplitWriter writer;
+    coder_.count(writer, end - point);
+    for (uint32_t i = point; i < end; i++) add_point(writer, i);
+    coder_.count(writer, loose);
+    for (uint32_t i = 0; i < loose; i++) add_loose_face(writer);
+
+    MeshBlock block{writer.finish(), level_->vertices() - vertices, error_before(end)};
+    const uint32_t elements = block.vertices + level_->faces() - faces;
+    block.payload.resize(
+        std::max<size_t>(block.payload.size(), (elements + elements_per_byte - 1) / elements_per_byte));
+    out_.blocks.push_back(std::move(block));
+  }
+
+  void add_point(SplitWriter& writer, uint32_t point) {
+    if (pass_ == 0 || point == mesh_.passes[pass_ - 1].point_end) {
+      coder_.count(writer, mesh_.passes[pass_++].point_end - point);
+      sweep_.begin_pass();
+      again_ = false;
+    }
+    const uint32_t first = mesh_.first_of_point[point], end = mesh_.first_of_point[point + 1];
+    const uint32_t parent = mesh_.point_of(mesh_.parent[first]);
+    while (true) {
+      const bool here = sweep_.point() == parent;
+      coder_.splits(writer, level_->fan_size(level_->first_of_point(sweep_.point())), again_, here);
+      again_ = here;
+      if (here) break;
+      LW_ASSERT(sweep_.advance());
+    }
+    for (uint32_t v = first; v < end; v++) {
+      add_vertex(writer, v, parent, v == first);
+      coder_.one_more(writer, level_->first_of_point(parent + 1) - level_->first_of_point(parent), v + 1 < end);
+    }
+    sweep_.add(point);
+  }
+
+  void add_vertex(SplitWriter& writer, uint32_t v, uint32_t parent_point, bool begins_point) {
+    NewVertex vertex;
+    vertex.parent = mesh_.parent[v];
+    level_->gather_fan(vertex.parent, vertex.fan);
+    for (const Spoke& spoke : vertex.fan) vertex.moves.push_back(mesh_.ancestor(finals_[spoke.corner], v + 1) == v);
+    const uint32_t refined = out_.layout.faces - out_.layout.loose_faces;
+    for (; next_face_ < refined && mesh_.appears_with[next_face_] == v; next_face_++)
+      vertex.faces.push_back(new_face(v));
+    set_attributes(vertex, v);
+    LW_ASSERT(coder_.new_vertex(writer, *level_, parent_point, begins_point, vertex));
+    level_->add(vertex, begins_point);
+    for (const NewFace& face : vertex.faces)
+      for (uint32_t k = 0; k < 3; k++) finals_.push_back(final_corner(face.source, k));
+  }
+
+  // The k-th corner, in the final level, of a face counted from one of its corners: 3 * face + that corner.
+  uint32_t final_corner(uint32_t source, uint32_t k) const { return mesh_.mesh.faces[source / 3][(source + k) % 3]; }
+
+  // The next face as it appears with vertex v.
+  NewFace new_face(uint32_t v) const {
+    uint32_t source = 3 * next_face_;
+    while (mesh_.ancestor(mesh_.mesh.faces[next_face_][source % 3], v + 1) != v) source++;
+    const Face& face = mesh_.mesh.faces[next_face_];
+    return {mesh_.ancestor(face[(source + 1) % 3], v + 1), mesh_.ancestor(face[(source + 2) % 3], v + 1), source};
+  }
+
+  void set_attributes(NewVertex& vertex, uint32_t v) const {
+    const QuantizedMesh& codes = mesh_.mesh;
+    vertex.position = codes.positions[v];
+    if (!codes.normals.empty()) vertex.normal = codes.normals[v];
+    for (size_t set = 0; set < 2; set++)
+      if (!codes.texcoords[set].empty()) vertex.texcoords[set] = codes.texcoords[set][v];
+    if (!codes.colors.empty()) vertex.color = codes.colors[v];
+  }
+
+  void add_loose_face(SplitWriter& writer) {
+    const Face& face = mesh_.mesh.faces[next_face_++];
+    for (const uint32_t v : face) coder_.vertex(writer, *level_, v);
+    level_->add_loose(face);
+  }
+
+  // The error of the level that ends before a point.
+  float error_before(uint32_t point) const {
+    const auto pass = std::find_if(mesh_.passes.begin(), mesh_.passes.end(),
+                                   [&](const ProgressiveMesh::Pass& p) { return point < p.point_end; });
+    return pass == mesh_.passes.end() ? 0 : pass->error;
+  }
+
+  const ProgressiveMesh& mesh_;
+  const QuantizedMesh base_;
+  EncodedMesh out_;
+  std::optional<Refinement> level_;
+  Sweep sweep_;
+  SplitCoder coder_;
+  size_t pass_ = 0;
+  bool again_ = false;
+  uint32_t next_face_;
+  std::vector<uint32_t> finals_;  // what each index of the present level becomes in the final one
+};
+
+}  // namespace
+
+void MeshLayout::write(ByteWriter& writer) const {
+  writer.u32(vertices);
+  writer.u32(faces);
+  writer.u32(base_vertices);
+  writer.u32(base_faces);
+  writer.u32(loose_faces);
+  writer.f32(base_error);
+  writer.u8(static_cast<uint8_t>(has_normals | has_texcoords[0] << 1 | has_texcoords[1] << 2 | has_colors << 3));
+  for (const Lattice& lattice : {positions, texcoords[0], texcoords[1]})
+    writer.u8(static_cast<uint8_t>(lattice.exponent));
+}
+
+EncodedMesh encode(const ProgressiveMesh& mesh, uint32_t block_vertices) { return Encoder(mesh).run(block_vertices); }
+
+}  // namespace lightwell
