@@ -28,9 +28,10 @@ test('the chunks of three.js are those that the lookup was written for', () => {
   }
 });
 
-test('a material receives the irradiance that light/ computes, wherever the grid stands', async () => {
+test('a material receives the irradiance that light/ computes, wherever the grid stands', async (t) => {
   const fixture = JSON.parse(await readFile(`${ROOT}tests/data/light/lookup.json`, 'utf8'));
   const server = await startStaticServer(await scriptPage('tests/e2e/pages/lookup.ts'));
+  t.after(() => server.stop());
   const { page, errors } = await openPage(browser);
   await page.goto(server.url);
   await page.waitForFunction(() => globalThis.run !== undefined);
@@ -44,8 +45,10 @@ test('a material receives the irradiance that light/ computes, wherever the grid
       });
     }),
   );
-  const shader = await page.evaluate(() => globalThis.translatedShader());
-  assert.equal(shader.match(/\btexture\(/g)?.length, 7, 'the lookup is seven filtered fetches');
+  const shader = await page.evaluate(() => globalThis.fragmentShader());
+  const count = (pattern) => shader.match(pattern)?.length ?? 0;
+  assert.equal(count(/\btexture(Lod|Grad|Offset)?\(\s*probesSH\b/g), 7, 'the lookup is seven filtered fetches');
+  assert.equal(count(/\bfetchLightProbes\(/g), 2, 'defined and called once');
+  assert.equal(count(/irradiance \+= getLightProbeGridIrradiance\(/g), 1, 'called once for the one grid');
   assert.deepEqual(errors, []);
-  await server.stop();
 });
