@@ -17,6 +17,9 @@ namespace {
 // over the image.
 constexpr int max_scans = 500;
 
+// Every block of 8 x 8 pixels takes a bit at least, in the scan that begins it.
+constexpr uint64_t most_pixels_a_byte = 8 * 64;
+
 // libjpeg reports an error by calling error_exit, which must not return: it jumps. Everything that owns memory lives in
 // these structs, outside the functions that set the jump's target.
 struct ErrorHandler {
@@ -126,6 +129,8 @@ Result<Image> read_jpeg(Bytes file) {
   if (channels != 1 && channels != 3 && channels != 4)
     return fail("JPEG", "has " + std::to_string(channels) + " components");
   LW_CHECK(check_image_size(r.codec.image_width, r.codec.image_height));
+  if (uint64_t(r.codec.image_width) * r.codec.image_height > file.size() * most_pixels_a_byte)
+    return fail("JPEG", "the file is too short for its size");
   r.image = {static_cast<int>(r.codec.image_width), static_cast<int>(r.codec.image_height), channels, {}};
   r.image.pixels.resize(size_t(r.codec.image_width) * r.codec.image_height * static_cast<size_t>(channels));
   if (!read_rows(r)) return fail("JPEG", r.handler.message);

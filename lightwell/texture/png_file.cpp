@@ -16,6 +16,7 @@ struct Reading {
   png_infop info = nullptr;
   ByteReader reader;
   std::string error;
+  uint64_t stored_stride = 0;  ///< bytes of a row before expansion
   Image image;
   std::vector<png_bytep> rows;
 
@@ -24,6 +25,9 @@ struct Reading {
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
 };
+
+// A byte of a deflate stream stands for at most this many.
+constexpr uint64_t most_inflation = 1032;
 
 struct Writing {
   png_structp png = nullptr;
@@ -60,6 +64,7 @@ bool start(Reading& r) {
   png_set_read_fn(r.png, &r, read_bytes);
   png_set_user_limits(r.png, max_image_side, max_image_side);
   png_read_info(r.png, r.info);
+  r.stored_stride = png_get_rowbytes(r.png, r.info);
   png_set_expand(r.png);
   png_set_scale_16(r.png);
   png_set_interlace_handling(r.png);
@@ -83,6 +88,7 @@ Result<Image> read_png(Bytes file) {
   if (!start(r)) return fail("PNG", r.error);
   const size_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
   LW_CHECK(check_image_size(width, height));
+  if (r.stored_stride * height > file.size() * most_inflation) return fail("PNG", "the file is too short for its size");
   r.image = {static_cast<int>(width), static_cast<int>(height), png_get_channels(r.png, r.info), {}};
   const size_t stride = png_get_rowbytes(r.png, r.info);
   LW_ASSERT(stride == width * static_cast<size_t>(r.image.channels));

@@ -165,6 +165,18 @@ TEST(Jpeg, TurnsInksIntoColour) {
   }
 }
 
+// A small file must not make its reader ask for a gigabyte.
+TEST(ImageFile, HoldsSizesAgainstTheFile) {
+  EXPECT_FALSE(read_png(hand_made_png(16384, 16384, 8, 6, std::vector<uint8_t>(16384))));
+  auto jpeg = write_jpeg(constant(8, 8, {5}), 90);
+  const std::vector<uint8_t> start_of_frame = {0xff, 0xc0};
+  const auto frame = std::search(jpeg.begin(), jpeg.end(), start_of_frame.begin(), start_of_frame.end());
+  for (int i = 5; i < 9; i += 2) frame[i] = 0x20;  // 8200 pixels a side
+  const auto read = read_jpeg(jpeg);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().reason.find("too short"), std::string::npos) << read.error().reason;
+}
+
 TEST(Jpeg, RefusesShortFiles) {
   const auto file = write_jpeg(noise(40, 40, 3), 90);
   EXPECT_FALSE(read_jpeg(Bytes(file).first(file.size() / 2)));
