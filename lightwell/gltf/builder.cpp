@@ -31,12 +31,13 @@ int DocumentBuilder::buffer_view(Bytes bytes, int target) {
     document_.buffers.emplace_back();
     add("buffers", Json::object());
   }
-  std::vector<uint8_t>& buffer = document_.buffers.back();
+  const size_t index = document_.buffers.size() - 1;
+  std::vector<uint8_t>& buffer = document_.buffers[index];
   buffer.resize((buffer.size() + 3) / 4 * 4);
-  Json view = {{"buffer", document_.buffers.size() - 1}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
+  Json view = {{"buffer", index}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
   if (target != 0) view["target"] = target;
   buffer.insert(buffer.end(), bytes.begin(), bytes.end());
-  document_.json["buffers"].back()["byteLength"] = buffer.size();
+  document_.json["buffers"][index]["byteLength"] = buffer.size();
   return add("bufferViews", std::move(view));
 }
 

@@ -62,10 +62,10 @@ Result<void> apply_sparse(const Document& document, const Json& accessor, std::v
   return {};
 }
 
-Result<void> expand_accessor(Document& document, int index, Budget& budget) {
-  Json& accessor = document.json["accessors"][static_cast<size_t>(index)];
+Result<void> expand_accessor(Document& document, size_t index, Budget& budget) {
+  const Json accessor = document.json["accessors"][index];
   if (accessor.contains("bufferView") && !accessor.contains("sparse")) return {};
-  const std::string name = element_name("accessors", static_cast<size_t>(index));
+  const std::string name = element_name("accessors", index);
   const ElementType type = element_type(accessor);
   const bool is_attribute = type.rows > 1;  // attributes begin at multiples of four bytes, indices are packed
   const size_t stride = is_attribute ? (type.size() + 3) / 4 * 4 : type.size();
@@ -73,16 +73,20 @@ Result<void> expand_accessor(Document& document, int index, Budget& budget) {
   LW_CHECK(budget.take(count * static_cast<double>(stride), name));
   LW_TRY(elements, dense_elements(document, accessor, static_cast<size_t>(count), stride, name));
   if (accessor.contains("sparse")) LW_CHECK(apply_sparse(document, accessor, elements, stride, name));
-  accessor.erase("sparse");
-  accessor.erase("byteOffset");
-  accessor["bufferView"] = append_buffer_view(document, std::move(elements), is_attribute ? stride : 0, 0);
+
+  const int view = append_buffer_view(document, std::move(elements), is_attribute ? stride : 0, 0);
+  Json& expanded = document.json["accessors"][index];
+  expanded.erase("sparse");
+  expanded.erase("byteOffset");
+  expanded["bufferView"] = view;
   return {};
 }
 
 }  // namespace
 
 Result<void> expand_sparse(Document& document, Budget& budget) {
-  for (const int accessor : drawn_accessors(document.json)) LW_CHECK(expand_accessor(document, accessor, budget));
+  for (const int accessor : drawn_accessors(document.json))
+    LW_CHECK(expand_accessor(document, static_cast<size_t>(accessor), budget));
   return {};
 }
 

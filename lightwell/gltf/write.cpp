@@ -32,10 +32,11 @@ void embed_image(Document& document, size_t index, Report& report) {
     bytes = write_png(Image{1, 1, 1, {255}});
     type = "image/png";
   }
+  const int view = append_buffer_view(document, std::move(*bytes), 0, 0);
   Json& image = document.json["images"][index];
   image.erase("uri");
   image["mimeType"] = type;
-  image["bufferView"] = append_buffer_view(document, std::move(*bytes), 0, 0);
+  image["bufferView"] = view;
 }
 
 /// What of one buffer its views use, overlapping views as one piece, and where the piece goes.
