@@ -51,6 +51,7 @@ class Path {
       ray.direction = way / whole;
       ray.far = whole * (1 - 1e-4f);
     }
+    light_.rays++;
     return scene_.occluded(ray, random_);
   }
 
@@ -61,6 +62,7 @@ class Path {
     throughput_ *= sample.weight;
     if (bounces_ == 0) whole_ = max_component(throughput_);
     Hit hit;
+    light_.rays++;
     if (!scene_.intersect({scene_.leave(vertex_.position, vertex_.normal), sample.in}, random_, hit)) {
       meet_environment(sample);
       return false;

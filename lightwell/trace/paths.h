@@ -22,7 +22,7 @@ struct Receiver {
 struct PathOptions {
   int max_bounces = 128;  ///< between the source and the receiver: 0 is direct light only
   /// One flag a luminaire: its direct light is counted apart, as of those a light grid contains; empty: none.
-  std::span<const uint8_t> apart;
+  std::span<const uint8_t> apart{};
 };
 
 /// What a receiver reflects towards who looks, by the way that the light came: straight from its source, straight from
@@ -31,6 +31,7 @@ struct ReceivedLight {
   Vec3f direct{};
   Vec3f apart{};
   Vec3f indirect{};
+  int rays = 0;  ///< that were traced for it
 };
 
 /// One sample of it: a path traced from the receiver, at each vertex one sample of the lights and one of the surface,
