@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/lights.h"
+
+#include <gtest/gtest.h>
+
+#include "lightwell/trace/photons.h"
+#include "tests/trace/scenes.h"
+
+namespace lightwell {
+namespace {
+
+/// Direct irradiance at a point, from `count` samples of the lights alone; nothing is in the way.
+Vec3f irradiance(const Lights& lights, const Vec3f& point, const Vec3f& normal, int count) {
+  Vec3d sum{};
+  for (int i = 0; i < count; i++) {
+    Random random(1, static_cast<uint64_t>(i));
+    const Lights::Arrival arrival = lights.sample(point, random);
+    sum += (arrival.radiance * std::max(0.0f, dot(normal, arrival.direction))).cast<double>();
+  }
+  return (sum / count).cast<float>();
+}
+
+Scene floor_scene() { return scene_of(quad({{-5, 0, -5}}, {{0, 0, 10}}, {{10, 0, 0}}), lambertian(0.5f)); }
+
+const Vec3f up{{0, 1, 0}};
+
+TEST(Lights, OfASceneWithoutThemAreDark) {
+  const Scene scene = floor_scene();
+  EXPECT_TRUE(traced(scene)->lights().dark());
+}
+
+TEST(Lights, APointLampFallsOffWithDistanceAndRange) {
+  Scene scene = floor_scene();
+  scene.lamps = {point_lamp({{0, 2, 0}}, {{8, 4, 2}})};
+  EXPECT_NEAR(irradiance(traced(scene)->lights(), {}, up, 1)[0], 2, 1e-5f);
+  // KHR_lights_punctual: max(min(1 - (distance / range)^4, 1), 0) / distance^2.
+  scene.lamps[0].range = 4;
+  EXPECT_NEAR(irradiance(traced(scene)->lights(), {}, up, 1)[1], 15.0f / 16, 1e-5f);
+  scene.lamps[0].range = 1.5f;
+  EXPECT_EQ(irradiance(traced(scene)->lights(), {}, up, 1), Vec3f{});
+}
+
+TEST(Lights, ASpotFadesBetweenItsCones) {
+  Scene scene = floor_scene();
+  scene.lamps = {spot_lamp({{0, 1, 0}}, 1, 0.2f, 0.6f)};
+  const auto trace = traced(scene);
+  const auto facing = [&](float angle) {
+    const Vec3f point{{std::tan(angle), 0, 0}};
+    const Vec3f way = scene.lamps[0].position - point;
+    return irradiance(trace->lights(), point, normalized(way), 1)[0] * dot(way, way);
+  };
+  EXPECT_NEAR(facing(0.1f), 1, 1e-5f);
+  EXPECT_EQ(facing(0.65f), 0);
+  const float x = (std::cos(0.4f) - std::cos(0.6f)) / (std::cos(0.2f) - std::cos(0.6f));
+  EXPECT_NEAR(facing(0.4f), x * x, 1e-4f);
+}
+
+TEST(Lights, ASunIsTheIrradianceThatFacesIt) {
+  Scene scene = floor_scene();
+  scene.lamps = {sun_lamp({{0.6f, -0.8f, 0}}, 3)};
+  EXPECT_NEAR(irradiance(traced(scene)->lights(), {}, up, 1)[0], 2.4f, 1e-5f);
+}
+
+// A disc or square of small size a at distance d on axis: pi L a^2 / d^2 in the limit; a 2 cm square at 1 m is within
+// 1e-4 of L * area / d^2, and the spread of the samples is of the same order.
+TEST(Lights, ASmallLampIsFoundOnAxisAndNotFromBehind) {
+  Scene scene = floor_scene();
+  add(scene, quad({{-0.01f, 1, -0.01f}}, {{0.02f, 0, 0}}, {{0, 0, 0.02f}}), lambertian(0, 1000));
+  const auto trace = traced(scene);
+  EXPECT_NEAR(irradiance(trace->lights(), {}, up, 1000)[0], 0.4f, 2e-4f);
+  EXPECT_EQ(irradiance(trace->lights(), {{0, 2, 0}}, -up, 100), Vec3f{});
+  scene.materials.back().double_sided = true;
+  EXPECT_NEAR(irradiance(traced(scene)->lights(), {{0, 2, 0}}, -up, 1000)[0], 0.4f, 2e-4f);
+}
+
+// A constant sky gives pi L to an open plane; 20000 samples of a uniform sphere scatter by 1.3 / sqrt(20000) = 1 %.
+TEST(Lights, AConstantEnvironmentGivesPiTimesItsRadiance) {
+  Scene scene = floor_scene();
+  scene.environment.radiance = {{1, 2, 3}};
+  const Vec3f e = irradiance(traced(scene)->lights(), {}, up, 20000);
+  EXPECT_NEAR(e[0] / pi, 1, 0.03f);
+  EXPECT_NEAR(e[2] / e[0], 3, 1e-4f);
+}
+
+/// A dark map with one bright pixel row and column, and its exact irradiance on a plane that faces `normal`.
+RadianceImage bright_spot() {
+  RadianceImage map{16, 8, std::vector<float>(16 * 8 * 3, 0.01f)};
+  for (size_t c = 0; c < 3; c++) map.pixels[3 * (2 * 16 + 5) + c] = 100;
+  return map;
+}
+
+TEST(Lights, AnEnvironmentMapIsSampledByItsRadiance) {
+  Scene scene = floor_scene();
+  scene.environment.map = std::make_shared<const RadianceImage>(bright_spot());
+  scene.environment.radiance = Vec3f::filled(1);
+  const auto trace = traced(scene);
+  const EnvironmentLight& environment = trace->lights().environment();
+  // The pixel (5, 2): azimuth u in [5, 6) / 16, polar angle in [2, 3) / 8 pi.
+  const float u = 5.5f / 16, v = 2.5f / 8;
+  const float angle = 2 * pi * (u - 0.5f);
+  const Vec3f towards{{std::sin(pi * v) * std::sin(angle), std::cos(pi * v), -std::sin(pi * v) * std::cos(angle)}};
+  EXPECT_FLOAT_EQ(environment.radiance(towards)[0], 100);
+  int bright = 0;
+  double integral = 0;
+  for (uint64_t i = 0; i < 10000; i++) {
+    Random random(2, i);
+    const Vec3f d = environment.sample(random);
+    bright += environment.radiance(d)[0] > 1;
+    integral += static_cast<double>(environment.radiance(d)[0] / environment.density(d)) / 10000;
+  }
+  EXPECT_GT(bright, 9800);  // 100 * 0.12 sr of 12.1 + 0.126
+  // Density is proportional to radiance, so each sample is the integral: the mean over the sphere times 4 pi.
+  EXPECT_NEAR(integral / static_cast<double>(4 * pi * environment.mean()[0]), 1, 1e-3);
+}
+
+// Photons of all kinds of sources carry their power on average.
+TEST(Lights, EmitTheirPower) {
+  Scene scene = floor_scene();
+  scene.environment.radiance = Vec3f::filled(0.02f);
+  scene.lamps = {point_lamp({{0, 2, 0}}, {{8, 4, 2}}), spot_lamp({{1, 2, 0}}, 20, 0.1f, 0.9f),
+                 sun_lamp({{0, -1, 0}}, 0.3f)};
+  Material lamp = lambertian(0, 2);
+  lamp.double_sided = true;
+  add(scene, quad({{0, 4, 0}}, {{1, 0, 0}}, {{0, 0, 1}}), lamp);
+  const auto trace = traced(scene);
+  const Lights& lights = trace->lights();
+  ASSERT_EQ(lights.luminaires().size(), 5u);
+  std::vector<double> flux(5);
+  const int count = 200000;
+  for (int i = 0; i < count; i++) {
+    Random random(3, static_cast<uint64_t>(i));
+    const Lights::Emission emission = lights.emit(random);
+    flux[static_cast<size_t>(emission.luminaire)] += static_cast<double>(emission.flux[0]) / count;
+  }
+  const float radius = length(trace->bounds().size()) / 2;
+  EXPECT_NEAR(lights.luminaires()[2].power[0], 0.3f * pi * radius * radius, 1e-2f);
+  EXPECT_NEAR(lights.luminaires()[3].power[0], 2 * 2 * pi, 1e-4f);
+  // Each is chosen by about a fifth of the photons or more: 4 / sqrt(40000) = 2 %, and the spot's edge scatters a
+  // little more.
+  for (size_t i = 0; i < 5; i++) {
+    EXPECT_NEAR(flux[i] / static_cast<double>(lights.luminaires()[i].power[0]), 1, 0.04) << i;
+  }
+}
+
+TEST(Lights, CountConnectedPiecesAsLuminaires) {
+  Scene scene = floor_scene();
+  Mesh lamps = quad({{0, 3, 0}}, {{1, 0, 0}}, {{0, 0, 1}});
+  append(lamps, quad({{3, 3, 0}}, {{1, 0, 0}}, {{0, 0, 2}}));
+  add(scene, lamps, lambertian(0, 1));
+  const auto trace = traced(scene);
+  const auto& all = trace->lights().luminaires();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].faces, (std::vector<uint32_t>{0, 1}));
+  EXPECT_NEAR(all[1].area, 2, 1e-6f);
+  EXPECT_NEAR(length(all[1].center - Vec3f{{3.5f, 3, 1}}), 0, 1e-5f);
+  EXPECT_NEAR(all[1].normal[1], -1, 1e-6f);
+}
+
+// In a closed room of albedo rho a photon makes 1 / (1 - rho) flights on average, all of them the same flux.
+TEST(Photons, AreReflectedByTheAlbedo) {
+  const Scene scene = scene_of(room({{0, 0, 0}}, {{1, 1, 1}}), lambertian(0.75f, 1));
+  const auto trace = traced(scene);
+  const uint64_t count = 20000;
+  double flights = 0;
+  for (uint64_t i = 0; i < count; i++) {
+    Flight flight;
+    for (PhotonWalk walk(*trace, 1, i); walk.next(flight);) {
+      flights++;
+      ASSERT_NEAR(flight.flux[0], 6 * pi, 1e-4f);
+      ASSERT_TRUE(std::isfinite(flight.length));
+      ASSERT_FALSE(flight.from_back);
+    }
+  }
+  // A geometric distribution of mean 4 has a standard deviation of 3.5: 1 % is 1.6 standard errors; 3 % are allowed.
+  EXPECT_NEAR(flights / static_cast<double>(count), 4, 0.12);
+}
+
+// 1 - (d / range)^4 of a lamp's photons fly further than d.
+TEST(Photons, EndAtTheRangeOfTheirLamp) {
+  Scene scene = floor_scene();
+  scene.lamps = {point_lamp({{0, 100, 0}}, Vec3f::filled(1), 2)};
+  const auto trace = traced(scene);
+  int beyond = 0;
+  const int count = 20000;
+  for (int i = 0; i < count; i++) {
+    Flight flight;
+    PhotonWalk walk(*trace, 1, static_cast<uint64_t>(i));
+    ASSERT_TRUE(walk.next(flight));
+    ASSERT_LE(flight.length, 2);
+    beyond += flight.length > 1;
+    ASSERT_FALSE(walk.next(flight));
+  }
+  EXPECT_NEAR(beyond / static_cast<double>(count), 15.0 / 16, 0.006);  // 3.5 standard errors
+}
+
+}  // namespace
+}  // namespace lightwell
