@@ -36,7 +36,8 @@ std::vector<float> free_shares(const TraceScene& scene, const GridShape& shape, 
       Random random(seed, node);
       const Box3f box = node_box(shape, node);
       float share = free_share(scene, box, 4, closed, random);
-      if (share > 0 && share < 1) share = free_share(scene, box, 10, closed, random);
+      // The light is divided by the share: the smaller it is, the more points it takes to be right by a few percent.
+      if (share > 0 && share < 1) share = free_share(scene, box, share < 0.25f ? 16 : 10, closed, random);
       shares[node] = share;
     }
   });

@@ -11,7 +11,8 @@ namespace {
 constexpr float resolution = 0x1p22f;
 constexpr float max_weight = 256;
 
-float sign(float x) { return x < 0 ? -1.0f : 1.0f; }
+/// 0 for a direction in the plane between two half-spaces: light that lies in it exactly (a sun's) is of neither.
+float sign(float x) { return static_cast<float>((x > 0) - (x < 0)); }
 
 /// The nine moments of a unit of light that arrives from the unit direction w (light.md section 1).
 std::array<float, 9> moments_of_direction(const Vec3f& w) {
