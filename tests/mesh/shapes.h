@@ -188,7 +188,7 @@ inline std::vector<std::pair<std::string, Mesh>> nasty_meshes() {
   add("a faceted knot", faceted_torus(60, 9));
   add("a thousand pieces", scattered(1000, 1));
   add("huge", scaled(knot(40, 9), 1e36f, {}));
-  add("tiny", scaled(knot(40, 9), 1e-30f, {}));
+  add("tiny", scaled(knot(40, 9), 1e-20f, {}));
   add("far away", scaled(knot(40, 9), 1, {{1e6f, 0, 0}}));
   for (uint64_t seed = 0; seed < 24; seed++) {
     Random random(seed, 2);
