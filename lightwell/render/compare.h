@@ -29,8 +29,8 @@ struct Comparison {
   double max = 0;
 };
 
-/// Compares `picture` with `reference`, which must have the same size. `display` says how deltae, lab and flip see them;
-/// pictures of 8 bits have been through a tone curve already.
+/// Compares `picture` with `reference`, which must have the same size. `display` says how deltae, lab and flip see
+/// them; pictures of 8 bits have been through a tone curve already.
 Result<Comparison> compare(const Picture& picture, const Picture& reference, Metric metric,
                            const Display& display = {0, ToneCurve::none});
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdlib>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include "lightwell/render/float_picture.h"
 #include "lightwell/texture/image_file.h"
@@ -22,23 +24,63 @@ tl::unexpected<Error> exr_failure(const char* message) {
   return fail("EXR", std::move(reason));
 }
 
-// The size in the header, so that it is checked before the pixels' memory is asked for.
-Result<void> check_header(Bytes file) {
+// tinyexr's header, freed also after a failure.
+struct Header : EXRHeader {
+  Header() { InitEXRHeader(this); }
+  ~Header() { FreeEXRHeader(this); }
+  Header(const Header&) = delete;
+  Header& operator=(const Header&) = delete;
+
+  // The number of the channel of this name, or of the only one.
+  std::optional<size_t> channel(std::string_view wanted) const {
+    for (int c = 0; c < num_channels; c++) {
+      if (num_channels == 1 || channels[c].name == wanted) return static_cast<size_t>(c);
+    }
+    return std::nullopt;
+  }
+};
+
+// Reads the header, so that the size is checked before the pixels' memory is asked for.
+Result<void> read_header(Bytes file, Header& header) {
   EXRVersion version;
   if (ParseEXRVersionFromMemory(&version, file.data(), file.size()) != TINYEXR_SUCCESS)
     return fail("EXR", "broken header");
-  if (version.multipart || version.non_image) return fail("EXR", "has several parts or is deep");
-  EXRHeader header;
-  InitEXRHeader(&header);
+  if (version.multipart || version.non_image || version.tiled)
+    return fail("EXR", "is tiled, deep or has several parts");
   const char* message = nullptr;
   if (ParseEXRHeaderFromMemory(&header, &version, file.data(), file.size(), &message) != TINYEXR_SUCCESS) {
     return exr_failure(message);
   }
   const int64_t width = int64_t(header.data_window.max_x) - header.data_window.min_x + 1;
   const int64_t height = int64_t(header.data_window.max_y) - header.data_window.min_y + 1;
-  FreeEXRHeader(&header);
   return check_image_size(static_cast<uint64_t>(std::max<int64_t>(width, 0)),
                           static_cast<uint64_t>(std::max<int64_t>(height, 0)));
+}
+
+int rows_of_block(int compression) {
+  switch (compression) {
+    case TINYEXR_COMPRESSIONTYPE_PIZ: return 32;
+    case TINYEXR_COMPRESSIONTYPE_ZIP:
+    case TINYEXR_COMPRESSIONTYPE_ZFP: return 16;
+    default: return 1;
+  }
+}
+
+// That every block lies within the file: tinyexr loses memory when one does not. A block is its first row, its length
+// and so many bytes; the table of their places follows the header.
+Result<void> check_blocks(Bytes file, const Header& header) {
+  ByteReader table(file);
+  table.take(size_t(8) + header.header_len);
+  const int rows = rows_of_block(header.compression_type);
+  for (int64_t y = header.data_window.min_y; y <= header.data_window.max_y; y += rows) {
+    const uint64_t place = table.u64();
+    if (!table.ok() || place > file.size()) return fail("EXR", "ends too early");
+    ByteReader block(file.subspan(place));
+    block.u32();
+    block.take(block.u32());
+    if (!block.ok()) return fail("EXR", "ends too early");
+  }
+  return {};
 }
 
 }  // namespace
@@ -80,17 +122,26 @@ Result<std::vector<uint8_t>> write_exr(const Picture& picture) {
 }
 
 Result<Picture> read_exr(Bytes file) {
-  LW_CHECK(check_header(file));
-  float* rgba = nullptr;
-  int width = 0, height = 0;
+  Header header;
+  LW_CHECK(read_header(file, header));
+  LW_CHECK(check_blocks(file, header));
+  const std::array<std::optional<size_t>, 3> rgb{header.channel("R"), header.channel("G"), header.channel("B")};
+  if (!rgb[0] || !rgb[1] || !rgb[2]) return fail("EXR", "has no channels R, G and B");
+  std::fill_n(header.requested_pixel_types, header.num_channels, TINYEXR_PIXELTYPE_FLOAT);
+
+  EXRImage pixels;
+  InitEXRImage(&pixels);
   const char* message = nullptr;
-  if (LoadEXRFromMemory(&rgba, &width, &height, file.data(), file.size(), &message) != TINYEXR_SUCCESS)
+  if (LoadEXRImageFromMemory(&pixels, &header, file.data(), file.size(), &message) != TINYEXR_SUCCESS)
     return exr_failure(message);
-  const Memory owner(rgba, &std::free);
-  Picture picture{width, height, {}};
-  const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
-  picture.pixels.reserve(3 * pixels);
-  for (size_t i = 0; i < pixels; i++) picture.pixels.insert(picture.pixels.end(), rgba + 4 * i, rgba + 4 * i + 3);
+  // A failed load has freed it already.
+  const std::unique_ptr<EXRImage, decltype(&FreeEXRImage)> owner(&pixels, &FreeEXRImage);
+  Picture picture{pixels.width, pixels.height, {}};
+  const size_t count = static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.height);
+  picture.pixels.reserve(3 * count);
+  for (size_t i = 0; i < count; i++) {
+    for (const auto& plane : rgb) picture.pixels.push_back(reinterpret_cast<const float*>(pixels.images[*plane])[i]);
+  }
   return picture;
 }
 

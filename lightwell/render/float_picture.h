@@ -8,11 +8,16 @@ namespace lightwell {
 /// Pictures of floats by their format; read_picture and write_picture choose.
 
 bool is_exr(Bytes file);
-/// Any layer-less EXR that has R, G and B (or one channel, taken as grey); any bytes are safe as far as tinyexr is.
+/// A scanline OpenEXR file with channels R, G and B, or a single channel, taken as grey. Bytes are as safe as in
+/// tinyexr.
 Result<Picture> read_exr(Bytes file);
+/// The bytes of an OpenEXR file of 32-bit floats, deflated.
+Result<std::vector<uint8_t>> write_exr(const Picture& picture);
 
 bool is_pfm(Bytes file);
-/// Any bytes are safe.
+/// Colour or grey, either byte order; any bytes are safe.
 Result<Picture> read_pfm(Bytes file);
+/// The bytes of a PFM file: little-endian floats, first row at the bottom.
+std::vector<uint8_t> write_pfm(const Picture& picture);
 
 }  // namespace lightwell

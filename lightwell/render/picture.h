@@ -38,11 +38,6 @@ Image displayed(const Picture& picture, const Display& display);
 /// Writes a picture; the name's ending says how: .png (as displayed), .exr or .pfm (32-bit floats as they are).
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture, const Display& display = {});
 
-/// The bytes of an OpenEXR file of 32-bit floats, deflated.
-Result<std::vector<uint8_t>> write_exr(const Picture& picture);
-/// The bytes of a PFM file: little-endian floats, first row at the bottom.
-std::vector<uint8_t> write_pfm(const Picture& picture);
-
 /// Reads a picture, recognised by content: OpenEXR, PFM (colour or grey, either byte order), or an 8-bit image, which
 /// is taken as sRGB without a tone curve; transparency is ignored.
 Result<Picture> read_picture(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lightwell/base/random.h"
+#include "lightwell/render/float_picture.h"
 #include "lightwell/texture/image_file.h"
 
 namespace lightwell {
