@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/scene/import_gltf.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "lightwell/base/file.h"
+#include "lightwell/texture/image_file.h"
+
+namespace lightwell {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The unit square in z = 0, facing +z.
+Mesh square() {
+  Mesh mesh;
+  mesh.positions = {{{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}};
+  mesh.faces = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+/// One mesh, and the nodes of a JSON text under an only scene, which shows those named `roots`.
+Document scene_document(const char* nodes, const Json& roots) {
+  Document document;
+  DocumentBuilder builder(document);
+  const Json primitive = builder.primitive(square());
+  builder.add("meshes", {{"primitives", Json::array({primitive})}});
+  document.json["nodes"] = Json::parse(nodes);
+  builder.add("scenes", {{"nodes", roots}});
+  return document;
+}
+
+Scene import(Document document, Report& report) {
+  auto scene = scene_from_document(std::move(document), "test", report);
+  EXPECT_TRUE(scene) << scene.error().message();
+  return scene ? std::move(*scene) : Scene();
+}
+
+Scene import(Document document) {
+  Report report;
+  Scene scene = import(std::move(document), report);
+  EXPECT_EQ(report.warnings, std::vector<std::string>());
+  return scene;
+}
+
+std::vector<std::string> warnings_of(Document document) {
+  Report report;
+  import(std::move(document), report);
+  return report.warnings;
+}
+
+#define EXPECT_NEAR_VEC(a, b, tolerance) EXPECT_LE(length((a) - (b)), tolerance)
+
+// The product of the textbook matrices, by hand: scaled by 2, turned a quarter about z (x to y), moved by (1, 2, 3);
+// the parent moves by (10, 0, 0). Rounding of the quaternion's root stays below 1e-6.
+TEST(ImportGltf, TransformsMultiplyDownTheTree) {
+  const Scene scene = import(scene_document(R"([
+      {"translation": [10, 0, 0], "children": [1, 2]},
+      {"translation": [1, 2, 3], "rotation": [0, 0, 0.70710678, 0.70710678], "scale": [2, 2, 2], "mesh": 0},
+      {"matrix": [0,2,0,0, -2,0,0,0, 0,0,2,0, 1,2,3,1], "mesh": 0}])",
+                                            {0}));
+  ASSERT_EQ(scene.instances.size(), 2u);
+  ASSERT_EQ(scene.primitives.size(), 1u);
+  for (const Instance& instance : scene.instances) {
+    EXPECT_EQ(instance.primitive, 0);
+    EXPECT_NEAR_VEC(instance.to_scene.point(Vec3f{{1, 0, 0}}), (Vec3f{{11, 4, 3}}), 1e-6f);
+    EXPECT_NEAR_VEC(instance.to_scene.point(Vec3f{{0, 1, 1}}), (Vec3f{{9, 2, 5}}), 1e-6f);
+  }
+  EXPECT_EQ(scene.instances[0].node, 1);
+  EXPECT_EQ(scene.instances[1].node, 2);
+}
+
+TEST(ImportGltf, ShowsTheDefaultSceneOrTheFirst) {
+  Document document = scene_document(R"([{"mesh": 0}, {"mesh": 0, "translation": [0, 0, 5]}])", {0});
+  DocumentBuilder(document).add("scenes", {{"nodes", {1}}});
+  EXPECT_EQ(import(document).instances.at(0).node, 0);
+  document.json["scene"] = 1;
+  EXPECT_EQ(import(document).instances.at(0).node, 1);
+  EXPECT_EQ(import(document).name, "test");
+}
+
+TEST(ImportGltf, MirroredNodesAreKept) {
+  const Scene scene = import(scene_document(R"([{"mesh": 0, "scale": [-1, 1, 1]}])", {0}));
+  EXPECT_LT(scene.instances.at(0).to_scene.determinant(), 0);
+}
+
+TEST(ImportGltf, FlattenedNodesAreLeftOut) {
+  const char* nodes = R"([{"mesh": 0, "scale": [1, 0, 1]}, {"mesh": 0, "matrix": [1,2,3,0, 2,4,6,0, 0,0,1,0, 0,0,0,1]},
+                          {"mesh": 0, "scale": [1e300, 1e300, 1e300]}, {"mesh": 0, "translation": [1e300, 0, 0]},
+                          {"mesh": 0, "scale": [1e-6, 1e-6, 1e-6]}])";
+  Report report;
+  const Scene scene = import(scene_document(nodes, {0, 1, 2, 3, 4}), report);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.instances[0].node, 4);
+  EXPECT_EQ(report.warnings, std::vector<std::string>{
+                                 "nodes[0] and 3 more: its transform flattens what it holds; left out of the bake"});
+}
+
+TEST(ImportGltf, DeepTreesNeedNoStack) {
+  std::string nodes = "[";
+  for (int i = 1; i <= 100000; i++) nodes += "{\"children\":[" + std::to_string(i) + "]},";
+  EXPECT_EQ(import(scene_document((nodes + "{\"mesh\":0}]").c_str(), {0})).instances.size(), 1u);
+}
+
+TEST(ImportGltf, GpuInstancesArePlaced) {
+  Document document = scene_document(
+      R"([{"mesh": 0, "translation": [0, 0, 7], "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {}}}}])", {0});
+  DocumentBuilder builder(document);
+  Json& nodes = document.json["nodes"];
+  const int moved = builder.accessor({{{1, 0, 0}}, {{2, 0, 0}}, {{3, 0, 0}}}, false);
+  const int scaled = builder.accessor({{{1, 1, 1}}, {{2, 2, 2}}, {{0, 0, 0}}}, false);
+  nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", moved}, {"SCALE", scaled}};
+  Report report;
+  const Scene scene = import(document, report);
+  ASSERT_EQ(scene.instances.size(), 2u);  // the third is flat
+  EXPECT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(scene.instances[1].to_scene.point(Vec3f{{1, 1, 1}}), (Vec3f{{4, 2, 9}}));
+  EXPECT_EQ(scene.instances[1].node, 0);
+
+  nodes[0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["ROTATION"] = moved;
+  const auto wrong = scene_from_document(document, "", report);
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().message(),
+            "nodes[0].EXT_mesh_gpu_instancing.ROTATION: is of a type or count that it cannot have");
+}
+
+TEST(ImportGltf, WhatMovesOrDeformsIsLeftOutOfTheBake) {
+  Document document = scene_document(R"([{"children": [1]}, {"mesh": 0}, {"mesh": 0}])", {0, 2});
+  DocumentBuilder builder(document);
+  builder.add("animations", Json::parse(R"({"channels": [{"target": {"node": 0, "path": "rotation"}}]})"));
+  Report report;
+  Scene scene = import(document, report);
+  ASSERT_EQ(scene.instances.size(), 1u);  // the mesh is at rest elsewhere
+  EXPECT_EQ(scene.instances[0].node, 2);
+  EXPECT_FALSE(scene.primitives[0].deforming);
+  EXPECT_EQ(report.warnings, std::vector<std::string>{"nodes[1]: is animated; left out of the bake"});
+
+  document.json["scenes"][0]["nodes"] = {0};
+  scene = import(document, report);
+  EXPECT_TRUE(scene.instances.empty());
+  EXPECT_TRUE(scene.primitives.at(0).deforming);
+
+  document = scene_document(R"([{"mesh": 0}, {"mesh": 0, "skin": 0}])", {0, 1});
+  EXPECT_EQ(warnings_of(document),
+            std::vector<std::string>{
+                "meshes[0].primitives[0]: is skinned or morphed; copied as it is and left out of the bake"});
+  document.json["nodes"][1].erase("skin");
+  document.json["meshes"][0]["primitives"][0]["targets"] = Json::parse(R"([{"POSITION": 0}])");
+  scene = import(document, report);
+  EXPECT_TRUE(scene.primitives.at(0).deforming);
+  EXPECT_TRUE(scene.instances.empty());
+}
+
+TEST(ImportGltf, LinesAreCopiedWithAWarning) {
+  Document document = scene_document(R"([{"mesh": 0}])", {0});
+  document.json["meshes"][0]["primitives"][0]["mode"] = 1;
+  Report report;
+  EXPECT_TRUE(import(document, report).primitives.empty());
+  EXPECT_EQ(
+      report.warnings,
+      std::vector<std::string>{"meshes[0].primitives[0]: has no triangles; copied as it is and left out of the bake"});
+}
+
+TEST(ImportGltf, HiddenNodesAreLeftOut) {
+  const Document document = scene_document(
+      R"([{"children": [1], "extensions": {"KHR_node_visibility": {"visible": false}}}, {"mesh": 0}])", {0});
+  Report report;
+  EXPECT_TRUE(import(document, report).instances.empty());
+  EXPECT_EQ(report.warnings.size(), 1u);
+}
+
+TEST(ImportGltf, MaterialsAreRead) {
+  Document document;
+  document.json["samplers"] = Json::parse(R"([{"wrapS": 33071, "wrapT": 33648}])");
+  document.json["images"] = Json::array();
+  document.json["textures"] =
+      Json::parse(R"([{"source": 0, "sampler": 0}, {"source": 1, "extensions": {"EXT_texture_webp": {"source": 2}}}])");
+  document.json["materials"] = Json::parse(R"([{}, {
+      "name": "all", "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
+      "emissiveFactor": [0.5, 0.25, 0], "emissiveTexture": {"index": 1},
+      "pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.75,
+        "baseColorTexture": {"index": 0, "texCoord": 1},
+        "metallicRoughnessTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+          {"offset": [1, 2], "scale": [3, 4], "rotation": 1.5707963267948966, "texCoord": 1}}}},
+      "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8},
+        "KHR_materials_specular": {"specularFactor": 0.125}, "KHR_materials_transmission": {"transmissionFactor": 0.6}}
+    }, {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}, "extensions": {"KHR_materials_unlit": {}}}])");
+  document.json["scenes"] = Json::array({Json::object()});
+  const std::vector<Material> materials = import(document).materials;
+  ASSERT_EQ(materials.size(), 3u);
+  const Material& standard = materials[0];
+  EXPECT_EQ(standard.base_color, Vec4f::filled(1));
+  EXPECT_EQ(standard.emission, Vec3f{});
+  EXPECT_EQ(standard.metallic, 1);
+  EXPECT_EQ(standard.roughness, 1);
+  EXPECT_EQ(standard.specular, 1);
+  EXPECT_EQ(standard.alpha, Material::Alpha::opaque);
+  EXPECT_EQ(standard.base_color_texture.image, -1);
+
+  const Material& all = materials[1];
+  EXPECT_EQ(all.name, "all");
+  EXPECT_EQ(all.alpha, Material::Alpha::mask);
+  EXPECT_EQ(all.alpha_cutoff, 0.25f);
+  EXPECT_TRUE(all.double_sided);
+  EXPECT_EQ(all.base_color, (Vec4f{{0.1f, 0.2f, 0.3f, 0.4f}}));
+  EXPECT_EQ(all.emission, (Vec3f{{4, 2, 0}}));
+  EXPECT_EQ(all.emission_texture.image, 2);
+  EXPECT_EQ(all.metallic, 0.5f);
+  EXPECT_EQ(all.roughness, 0.75f);
+  EXPECT_EQ(all.specular, 0.125f);
+  EXPECT_EQ(all.transmission, 0.6f);
+  EXPECT_EQ(all.base_color_texture.image, 0);
+  EXPECT_EQ(all.base_color_texture.texcoord, 1);
+  EXPECT_EQ(all.base_color_texture.wrap_u, TextureLookup::Wrap::clamp);
+  EXPECT_EQ(all.base_color_texture.wrap_v, TextureLookup::Wrap::mirror);
+  // A quarter counter-clockwise with v up: u' = 4 v + 1, v' = -3 u + 2.
+  const TextureLookup& turned = all.metallic_roughness_texture;
+  EXPECT_EQ(turned.texcoord, 1);
+  for (const auto& [value, expected] :
+       {std::pair(turned.row_u[0], 0.0f), std::pair(turned.row_u[1], 4.0f), std::pair(turned.row_u[2], 1.0f),
+        std::pair(turned.row_v[0], -3.0f), std::pair(turned.row_v[1], 0.0f), std::pair(turned.row_v[2], 2.0f)})
+    EXPECT_NEAR(value, expected, 1e-6f);
+
+  EXPECT_EQ(materials[2].alpha, Material::Alpha::blend);
+  EXPECT_EQ(materials[2].specular, 0);
+  EXPECT_EQ(materials[2].metallic, 0);
+}
+
+TEST(ImportGltf, FactorsOutsideTheirRangeAreClamped) {
+  Document document;
+  document.json["scenes"] = Json::array({Json::object()});
+  document.json["materials"] = Json::parse(R"([{"emissiveFactor": [-1, 1e300, 0.5], "extensions":
+      {"KHR_materials_emissive_strength": {"emissiveStrength": 1e300}}}])");
+  Report report;
+  const Scene scene = import(document, report);
+  EXPECT_EQ(scene.materials[0].emission, (Vec3f{{0, 1e12f, 0.5e12f}}));
+  EXPECT_EQ(report.warnings, std::vector<std::string>{"materials[0]: factors outside their range were clamped"});
+}
+
+TEST(ImportGltf, ImagesAreDecodedAndOthersAreWhite) {
+  Document document;
+  document.json["scenes"] = Json::array({Json::object()});
+  DocumentBuilder builder(document);
+  const int png = builder.buffer_view(write_png(Image{1, 2, 3, {1, 2, 3, 4, 5, 6}}));
+  const std::string ktx2 = "\xabKTX 20\xbb\r\n\x1a\n";
+  builder.add("images", {{"bufferView", png}, {"mimeType", "image/png"}});
+  builder.add("images", {{"bufferView", builder.buffer_view(as_bytes(ktx2))}, {"mimeType", "image/ktx2"}});
+  builder.add("images", {{"uri", "../secret.png"}});
+  Report report;
+  const Scene scene = import(document, report);
+  ASSERT_EQ(scene.images.size(), 3u);
+  EXPECT_EQ(scene.images[0].pixels, (std::vector<uint8_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(scene.images[0].height, 2);
+  for (const size_t i : {1, 2}) EXPECT_EQ(scene.images[i].pixels, (std::vector<uint8_t>{255, 255, 255}));
+  EXPECT_EQ(report.warnings,
+            (std::vector<std::string>{"images[1]: KHR_texture_basisu is not supported; a white pixel stands for it",
+                                      "images[2]: its URI does not lead to a file below the document's folder; a white "
+                                      "pixel stands for it"}));
+}
+
+TEST(ImportGltf, LampsAreRead) {
+  Document document = scene_document(R"([
+      {"extensions": {"KHR_lights_punctual": {"light": 0}}, "rotation": [-0.70710678, 0, 0, 0.70710678]},
+      {"name": "node", "translation": [1, 2, 3], "scale": [5, 5, 5], "extensions": {"KHR_lights_punctual": {"light": 1}}},
+      {"extensions": {"KHR_lights_punctual": {"light": 2}}},
+      {"extensions": {"KHR_lights_punctual": {"light": 3}}}])",
+                                     {0, 1, 2, 3});
+  document.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([
+      {"type": "directional", "name": "sun", "color": [1, 0.5, 0.25], "intensity": 8}, {"type": "point", "range": 4},
+      {"type": "spot", "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}},
+      {"type": "point", "intensity": 0}])");
+  const std::vector<Lamp> lamps = import(document).lamps;
+  ASSERT_EQ(lamps.size(), 3u);  // the last does not shine
+  EXPECT_EQ(lamps[0].kind, Lamp::Kind::sun);
+  EXPECT_EQ(lamps[0].name, "sun");
+  EXPECT_EQ(lamps[0].intensity, (Vec3f{{8, 4, 2}}));
+  EXPECT_NEAR_VEC(lamps[0].direction, (Vec3f{{0, -1, 0}}), 1e-6f);
+  EXPECT_EQ(lamps[1].kind, Lamp::Kind::point);
+  EXPECT_EQ(lamps[1].name, "node");
+  EXPECT_EQ(lamps[1].position, (Vec3f{{1, 2, 3}}));
+  EXPECT_EQ(lamps[1].range, 4);
+  EXPECT_EQ(lamps[1].node, 1);
+  EXPECT_EQ(lamps[2].kind, Lamp::Kind::spot);
+  EXPECT_EQ(lamps[2].inner_cone, 0.25f);
+  EXPECT_EQ(lamps[2].outer_cone, 0.5f);
+}
+
+TEST(ImportGltf, CamerasAndTheSkyAreRead) {
+  Document document =
+      scene_document(R"([{"camera": 0, "translation": [1, 2, 3], "scale": [2, 2, 2]}, {"camera": 1}])", {0, 1});
+  document.json["cameras"] = Json::parse(R"([
+      {"name": "eye", "type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 2, "znear": 1},
+       "extras": {"width": 640, "height": 320}},
+      {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 1, "zfar": 2}}])");
+  document.json["scenes"][0]["extras"]["lightwell"]["skyRadiance"] = {0.5, 1, 2};
+  Report report;
+  const Scene scene = import(document, report);
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_EQ(scene.cameras[0].name, "eye");
+  EXPECT_EQ(scene.cameras[0].yfov, 0.5f);
+  EXPECT_EQ(scene.cameras[0].aspect, 2);
+  EXPECT_EQ(scene.cameras[0].width, 640);
+  EXPECT_EQ(scene.cameras[0].height, 320);
+  EXPECT_EQ(scene.cameras[0].to_scene.point(Vec3f{{0, 0, -1}}), (Vec3f{{1, 2, 2}}));  // the scale is taken out
+  EXPECT_EQ(scene.environment.radiance, (Vec3f{{0.5f, 1, 2}}));
+  EXPECT_EQ(report.warnings, std::vector<std::string>{"cameras without perspective are left out"});
+}
+
+TEST(Reorient, TurnsZUpAndScales) {
+  Document document = scene_document(R"([{"mesh": 0}, {"mesh": 0, "translation": [0, 0, 1]}])", {0, 1});
+  reorient(document, 'z', 0.5f);
+  const Scene scene = import(document);
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.instances[0].to_scene.point(Vec3f{{1, 2, 3}}), (Vec3f{{0.5f, 1.5f, -1}}));
+  EXPECT_EQ(scene.instances[1].to_scene.point(Vec3f{{0, 0, 0}}), (Vec3f{{0, 0.5f, 0}}));
+  EXPECT_GT(scene.instances[0].to_scene.determinant(), 0);
+  EXPECT_EQ(document.json["scenes"][0]["nodes"], Json({2}));
+}
+
+TEST(Reorient, ChangesNothingWhereNothingIsToDo) {
+  Document document = scene_document(R"([{"mesh": 0}])", {0});
+  const Json before = document.json;
+  reorient(document, 'y', 1);
+  EXPECT_EQ(document.json, before);
+  Document empty;
+  reorient(empty, 'z', 2);
+  EXPECT_EQ(empty.json, Document().json);
+}
+
+Scene import_file(const fs::path& path, Report& report) {
+  const auto bytes = read_file(path);
+  EXPECT_TRUE(bytes) << path;
+  auto document = read_document(*bytes, path.parent_path(), report);
+  EXPECT_TRUE(document) << path << document.error().message();
+  return document ? import(std::move(*document), report) : Scene();
+}
+
+// docs of the truth scenes: sizes in metres, triangles, the lamp's radiance and the pictures' sizes.
+TEST(ImportGltf, TruthScenesReadRight) {
+  struct Truth {
+    const char* name;
+    size_t triangles;
+    Vec3f radiance;
+    int width, height;
+  };
+  for (const Truth& truth :
+       {Truth{"a_cornell", 46, {{17, 12, 4}}, 160, 160}, Truth{"b_tworooms", 82, {{20, 18, 15}}, 160, 120},
+        Truth{"c_furnace", 12, {{1, 1, 1}}, 160, 120}, Truth{"d_blob", 20572, {{0, 0, 0}}, 160, 120}}) {
+    SCOPED_TRACE(truth.name);
+    Report report;
+    const Scene scene =
+        import_file(fs::path(LIGHTWELL_TEST_DATA) / "truth" / (std::string(truth.name) + ".glb"), report);
+    EXPECT_TRUE(report.warnings.empty());
+    size_t triangles = 0;
+    for (const Primitive& primitive : scene.primitives) triangles += primitive.mesh.faces.size();
+    EXPECT_EQ(triangles, truth.triangles);
+    EXPECT_EQ(scene.instances.size(), scene.primitives.size());
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].name, "cam1");
+    EXPECT_EQ(scene.cameras[0].width, truth.width);
+    EXPECT_EQ(scene.cameras[0].height, truth.height);
+    bool shines = truth.radiance == Vec3f{};
+    for (const Material& material : scene.materials) {
+      shines |= length(material.emission - truth.radiance) < 1e-5f;
+      EXPECT_EQ(material.specular, 0);
+      EXPECT_EQ(material.metallic, 0);
+      EXPECT_EQ(material.roughness, 1);
+    }
+    EXPECT_TRUE(shines);
+    for (const Primitive& primitive : scene.primitives) EXPECT_TRUE(primitive.mesh.normals.empty());
+  }
+}
+
+TEST(ImportGltf, SharedFilesBecomeScenes) {
+  const fs::path data = fs::path(LIGHTWELL_SHARED) / "data";
+  if (!fs::exists(data)) GTEST_SKIP() << data << " is missing";
+  for (const char* folder : {"rooms", "scans", "objects"})
+    for (const auto& entry : fs::directory_iterator(data / folder)) {
+      if (entry.path().extension() != ".glb") continue;
+      SCOPED_TRACE(entry.path());
+      Report report;
+      const Scene scene = import_file(entry.path(), report);
+      EXPECT_FALSE(scene.instances.empty());
+      EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+    }
+}
+
+// data/README.md: many-lights.glb draws 29 356 triangles, with 32 + 10 lamps; the dragon room is a cube of 6 m.
+TEST(ImportGltf, SharedRoomsHaveTheStatedContents) {
+  const fs::path rooms = fs::path(LIGHTWELL_SHARED) / "data" / "rooms";
+  if (!fs::exists(rooms)) GTEST_SKIP() << rooms << " is missing";
+  Report report;
+  const Scene hall = import_file(rooms / "many-lights.glb", report);
+  size_t drawn = 0;
+  for (const Instance& instance : hall.instances)
+    drawn += hall.primitives[static_cast<size_t>(instance.primitive)].mesh.faces.size();
+  EXPECT_EQ(drawn, 29356u);
+  EXPECT_EQ(hall.lamps.size(), 10u);
+
+  const Scene room = import_file(rooms / "dragon-room.glb", report);
+  Box3f box;
+  for (const Instance& instance : room.instances)
+    for (const Vec3f& p : room.primitives[static_cast<size_t>(instance.primitive)].mesh.positions)
+      box.extend(instance.to_scene.point(p));
+  EXPECT_NEAR_VEC(box.size(), Vec3f::filled(6), 1e-5f);
+}
+
+TEST(ImportGltf, BrokenFilesNeverCrash) {
+  const fs::path broken = fs::path(LIGHTWELL_SHARED) / "data" / "broken";
+  if (!fs::exists(broken)) GTEST_SKIP() << broken << " is missing";
+  for (const auto& entry : fs::recursive_directory_iterator(broken)) {
+    if (entry.path().extension() != ".glb" && entry.path().extension() != ".gltf") continue;
+    SCOPED_TRACE(entry.path());
+    Report report;
+    const auto bytes = read_file(entry.path());
+    auto document = read_document(*bytes, entry.path().parent_path(), report);
+    if (!document) continue;
+    const auto scene = scene_from_document(std::move(*document), "", report);
+    EXPECT_TRUE(scene || scene.error().message().find('\n') == std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace lightwell
