@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/light/atlas.h"
 
+#include <algorithm>
+
 #include "lightwell/base/assert.h"
 #include "lightwell/base/half.h"
 
@@ -48,6 +50,7 @@ LightAtlas::LightAtlas(const GridShape& shape, AtlasForm atlas_form, float norma
 void LightAtlas::write_header() {
   if (form != AtlasForm::patched) return;
   for (int lane = 0; lane < 4; lane++) halves[static_cast<size_t>(lane)] = to_half(header_[lane]);
+  std::fill_n(halves.begin() + 4, 4, uint16_t(0));
 }
 
 std::vector<LightAtlas::Rows> LightAtlas::update(const LightGrid& grid, int y, int rows, int z) {

@@ -19,8 +19,8 @@ namespace lightwell {
 /// scale,
 ///   so that dividing by it after filtering leaves invalid nodes out (light.md section 6) and undoes the scale. The
 ///   lookup never filters the padding, so texel (0, 0, 0) carries what the chunk needs besides: the grid's cell / its
-///   longest side (red, green, blue) and the normal offset in cells (alpha). Where the grid stands in the world comes
-///   through three.js's uniforms: light_grid.glsl says how.
+///   longest side (red, green, blue) and the normal offset in cells (alpha); texel (1, 0, 0) is 0, for the page to
+///   mark. Where the grid stands in the world comes through three.js's uniforms: light_grid.glsl says how.
 enum class AtlasForm { plain, patched };
 
 struct LightAtlas {
