@@ -29,6 +29,7 @@ class Requests {
   void finish(uint32_t id, double now);
   void fail(uint32_t id, double now);
 
+  void set_strategy(Strategy strategy) { strategy_ = strategy; }
   /// Ends everything: what is under way is cancelled, and nothing is asked any more.
   void stop();
   void set_strategy(Strategy strategy) { strategy_ = strategy; }

@@ -36,6 +36,10 @@ Strategy strategy_of(uint32_t number) {
   return static_cast<Strategy>(std::min(number, static_cast<uint32_t>(Strategy::light)));
 }
 
+Strategy strategy_of(uint32_t number) {
+  return static_cast<Strategy>(std::min(number, static_cast<uint32_t>(Strategy::light)));
+}
+
 uint32_t word_of(const AttributeLayout& layout) {
   return static_cast<uint32_t>(layout.semantic) | static_cast<uint32_t>(layout.component) << 8 |
          uint32_t(layout.components) << 16 | uint32_t(layout.stride) << 20 | uint32_t(layout.normalized) << 31;
@@ -122,6 +126,10 @@ uint32_t LW_EXPORT(lw_work)(uint32_t client) { return client_of(client).work(); 
 uint32_t LW_EXPORT(lw_take)(uint32_t client, uint32_t budget) {
   const std::optional<Update> update = client_of(client).take(budget);
   return update ? std::visit(WriteUpdate{}, *update) : 0;
+}
+
+void LW_EXPORT(lw_set_strategy)(uint32_t client, uint32_t strategy) {
+  client_of(client).set_strategy(strategy_of(strategy));
 }
 
 void LW_EXPORT(lw_set_weight)(uint32_t client, uint32_t stream, float weight) {

@@ -15,7 +15,7 @@ extern "C" {
 /// The version of this interface: 1.
 uint32_t lw_abi_version();
 
-/// A client. strategy: 0 interleave, 1 geometry, 2 light. fill: 0 none, 1 push-pull, 2 push-pull-smooth.
+/// A client. strategy: 0 interleave, 1 geometry, 2 light. fill: 0 push-pull, 1 push-pull-smooth, 2 none.
 uint32_t lw_create(uint32_t strategy, uint32_t fill, uint32_t seed);
 void lw_destroy(uint32_t client);
 
@@ -56,6 +56,8 @@ uint32_t lw_work(uint32_t client);
 ///   complete 8 failure:  [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
 uint32_t lw_take(uint32_t client, uint32_t budget);
 
+/// Another strategy from the next request on.
+void lw_set_strategy(uint32_t client, uint32_t strategy);
 /// How much a stream matters to the present picture (Client::set_weight).
 void lw_set_weight(uint32_t client, uint32_t stream, float weight);
 /// Takes another strategy, numbered as for lw_create, from the next request on.

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/client/received_scene.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "lightwell/light/atlas.h"
+#include "lightwell/light/stream.h"
+#include "lightwell/mesh/base_places.h"
+#include "lightwell/pack/opening.h"
+#include "lightwell/pack/reader.h"
+#include "lightwell/texture/stream.h"
+
+namespace lightwell {
+namespace {
+
+std::vector<uint8_t> copy(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
+
+template <typename T>
+void add_buffer(ReceivedScene::ReceivedMesh& mesh, std::span<const T> elements, uint32_t stride) {
+  if (elements.empty()) return;
+  mesh.buffers.push_back(copy({reinterpret_cast<const uint8_t*>(elements.data()), elements.size_bytes()}));
+  mesh.strides.push_back(stride);
+}
+
+struct Apply {
+  ReceivedScene& scene;
+
+  std::string operator()(const OpeningUpdate& update) {
+    if (!scene.opening.empty()) return "the opening came twice";
+    scene.opening = copy(update.glb);
+    return {};
+  }
+  std::string operator()(const MeshUpdate& update) {
+    if (scene.opening.empty()) return "a mesh came before the opening";
+    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
+    for (const AttributeLayout& attribute : update.attributes) {
+      mesh.buffers.emplace_back(size_t(update.vertices) * attribute.stride);
+      mesh.strides.push_back(attribute.stride);
+    }
+    mesh.buffers.emplace_back(size_t(update.faces) * 12);
+    mesh.strides.push_back(4);
+    return {};
+  }
+  std::string operator()(const RangeUpdate& update) {
+    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
+    const size_t number = update.buffer == RangeUpdate::indices ? mesh.buffers.size() - 1 : update.buffer;
+    if (number >= mesh.buffers.size()) return "a range of an unknown buffer";
+    std::vector<uint8_t>& buffer = mesh.buffers[number];
+    if (update.offset > buffer.size() || update.data.size() > buffer.size() - update.offset)
+      return "a range beyond its buffer";
+    if (update.offset % 4 != 0 || update.data.size() % 4 != 0) return "a range of odd length";
+    std::ranges::copy(update.data, buffer.begin() + update.offset);
+    return check_faces(mesh);
+  }
+  std::string operator()(const DrawUpdate& update) {
+    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
+    if (update.faces < mesh.faces || update.vertices < mesh.vertices) return "a mesh has become coarser";
+    mesh.vertices = update.vertices;
+    mesh.faces = update.faces;
+    return check_faces(mesh);
+  }
+  std::string operator()(const LightUpdate& update) {
+    if (update.atlas.size() != size_t(update.width) * update.height * update.depth * 8)
+      return "an atlas of another size";
+    scene.atlases[update.stream] = copy(update.atlas);
+    return {};
+  }
+  std::string operator()(const TextureUpdate& update) {
+    scene.textures[update.stream] = copy(update.file);
+    return {};
+  }
+  std::string operator()(const CompleteUpdate&) {
+    scene.complete = true;
+    return {};
+  }
+  std::string operator()(const FailureUpdate& update) {
+    scene.failure = update.message;
+    scene.reason = update.reason;
+    return {};
+  }
+
+  /// At every moment the faces that are drawn refer to vertices that have come: none has all its coordinates zero in
+  /// the sample.
+  static std::string check_faces(const ReceivedScene::ReceivedMesh& mesh) {
+    const std::vector<uint8_t>& positions = mesh.buffers.front();
+    for (size_t corner = 0; corner < size_t(mesh.faces) * 3; corner++) {
+      uint32_t vertex;
+      std::memcpy(&vertex, mesh.buffers.back().data() + corner * 4, 4);
+      if (size_t(vertex) * 12 >= positions.size()) return "a face refers to no vertex";
+      const auto position = Bytes(positions).subspan(size_t(vertex) * 12, 12);
+      if (std::ranges::all_of(position, [](uint8_t byte) { return byte == 0; }))
+        return "a face refers to a vertex that has not come";
+    }
+    return {};
+  }
+};
+
+ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t stream) {
+  const StreamEntry& entry = reader.directory().streams[stream];
+  ByteReader parameters(entry.parameters);
+  const MeshLayout layout = MeshLayout::read(parameters).value();
+  const BasePlaces places = BasePlaces::read(parameters).value();
+  const BaseArrays base = BaseArrays::read(layout, places, glb_chunks(reader.opening()).bin).value();
+  MeshDecoder decoder = std::move(MeshDecoder::open(layout, base.view(), entry.length).value());
+  for (uint32_t block = 0; block < entry.blocks; block++) decoder.append(reader.block(stream, block).value()).value();
+  ReceivedScene::ReceivedMesh mesh;
+  add_buffer(mesh, decoder.positions(), 12);
+  add_buffer(mesh, decoder.normals(), 8);
+  add_buffer(mesh, decoder.texcoords(0), 8);
+  add_buffer(mesh, decoder.texcoords(1), 8);
+  add_buffer(mesh, decoder.colors(), 4);
+  add_buffer(mesh, decoder.indices(), 4);
+  mesh.vertices = layout.vertices;
+  mesh.faces = layout.faces;
+  return mesh;
+}
+
+std::vector<uint8_t> decode_light(const PackReader& reader, uint32_t stream) {
+  const StreamEntry& entry = reader.directory().streams[stream];
+  LightDecoder decoder = LightDecoder::open(entry.parameters).value();
+  for (uint32_t block = 0; block < entry.blocks; block++) decoder.append(reader.block(stream, block).value()).value();
+  const LightLayout& layout = decoder.layout();
+  LightAtlas atlas(layout.shape, AtlasForm::patched, layout.normal_offset, layout.scale);
+  atlas.update(decoder.grid());
+  return copy({reinterpret_cast<const uint8_t*>(atlas.halves.data()), atlas.halves.size() * 2});
+}
+
+std::vector<uint8_t> decode_texture(const PackReader& reader, uint32_t stream) {
+  std::vector<uint8_t> file;
+  for (uint32_t block = 0; block < reader.directory().streams[stream].blocks; block++) {
+    const std::vector<uint8_t> payload = reader.block(stream, block).value();
+    file.insert(file.end(), payload.begin(), payload.end());
+  }
+  return file;
+}
+
+}  // namespace
+
+std::string ReceivedScene::apply(const Update& update) {
+  if (complete || !failure.empty()) return "an update came after the end";
+  return std::visit(Apply{*this}, update);
+}
+
+ReceivedScene decode_directly(Bytes pack) {
+  const FetchBytes fetch = [pack](uint64_t first, uint64_t length) -> Result<std::vector<uint8_t>> {
+    return copy(pack.subspan(static_cast<size_t>(first), static_cast<size_t>(length)));
+  };
+  const PackReader reader = PackReader::open(fetch, pack.size()).value();
+  ReceivedScene scene;
+  scene.opening = reader.opening();
+  for (uint32_t stream = 0; stream < reader.directory().streams.size(); stream++) {
+    switch (reader.directory().streams[stream].kind) {
+      case StreamKind::mesh: scene.meshes[stream] = decode_mesh(reader, stream); break;
+      case StreamKind::light: scene.atlases[stream] = decode_light(reader, stream); break;
+      case StreamKind::texture: scene.textures[stream] = decode_texture(reader, stream); break;
+    }
+  }
+  scene.complete = true;
+  return scene;
+}
+
+}  // namespace lightwell
