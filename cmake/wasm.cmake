@@ -6,7 +6,7 @@ find_program(LIGHTWELL_WASM_CXX clang++-19 REQUIRED)
 
 set(wasm_folder ${CMAKE_BINARY_DIR}/wasm)
 set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
-set(wasm_flags --target=wasm32-wasi -std=c++20 -O2 -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
+set(wasm_flags --target=wasm32-wasi -std=c++20 -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
   -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
   -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
 if(LIGHTWELL_WERROR)
@@ -22,10 +22,16 @@ lightwell_client_sources(wasm_sources base mesh light texture pack client)
 set(wasm_objects "")
 foreach(source ${wasm_sources})
   file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/lightwell ${source})
+  # Small where it runs once a request, fast where it runs once a vertex or node.
+  if(name MATCHES "^(base|mesh|light)/")
+    set(optimise -O2)
+  else()
+    set(optimise -Oz)
+  endif()
   string(REPLACE "/" "_" name ${name})
   set(object ${wasm_folder}/${name}.o)
   add_custom_command(OUTPUT ${object}
-    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} -MD -MF ${object}.d -c ${source} -o ${object}
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} ${optimise} -MD -MF ${object}.d -c ${source} -o ${object}
     DEPENDS ${source} DEPFILE ${object}.d COMMENT "Building WebAssembly object ${name}.o" VERBATIM)
   list(APPEND wasm_objects ${object})
 endforeach()

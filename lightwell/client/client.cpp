@@ -181,8 +181,6 @@ double Client::wake(double now) const { return machine_->requests().wake(now); }
 void Client::set_weight(uint32_t stream, float weight) { machine_->set_weight(stream, weight); }
 void Client::set_strategy(Strategy strategy) { machine_->requests().set_strategy(strategy); }
 
-void Client::set_strategy(Strategy strategy) { machine_->requests().set_strategy(strategy); }
-
 ClientProgress Client::progress() const { return machine_->progress(); }
 
 bool Client::ended() const { return machine_->ended(); }

@@ -72,9 +72,6 @@ class Client {
   /// Takes another strategy from the next request on.
   void set_strategy(Strategy strategy);
 
-  /// Another strategy from the next request on.
-  void set_strategy(Strategy strategy);
-
   ClientProgress progress() const;
   /// True when everything has been handed over, or nothing more will be.
   bool ended() const;

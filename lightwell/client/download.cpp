@@ -168,6 +168,7 @@ Result<uint64_t> Download::accept(size_t index, uint32_t number, Bytes bytes) {
     backlog_ += payload.size();
   }
   stream.states[number] = State::here;
+  skip_present(stream);
   stream.received += extent.length;
   return extent.length;
 }
@@ -196,12 +197,16 @@ std::optional<Run> Download::missing(size_t index, uint64_t length, uint64_t ahe
   return Run{index, first, end - first, begin, stream.table.extent(end - 1).end()};
 }
 
+void Download::skip_present(Stream& stream) {
+  while (stream.first_missing < stream.states.size() && stream.states[stream.first_missing] != State::missing)
+    stream.first_missing++;
+}
+
 void Download::asked(const Run& run) {
   Stream& stream = streams_[run.stream];
   for (uint32_t i = run.first; i < run.first + run.count; i++)
     if (stream.states[i] == State::missing) stream.states[i] = State::asked;
-  while (stream.first_missing < stream.states.size() && stream.states[stream.first_missing] != State::missing)
-    stream.first_missing++;
+  skip_present(stream);
 }
 
 void Download::unasked(const Run& run) {

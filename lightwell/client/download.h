@@ -93,6 +93,7 @@ class Download {
   uint64_t compare_witness(Cursor& cursor, Bytes& bytes);
   Result<uint64_t> receive_extent(size_t stream, Cursor& cursor, Bytes& bytes);
   Result<uint64_t> accept(size_t stream, uint32_t index, Bytes bytes);
+  static void skip_present(Stream& stream);
   Result<void> strike(size_t stream, const Extent& extent);
   std::optional<size_t> stream_at(uint64_t position) const;
 

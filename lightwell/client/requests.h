@@ -32,7 +32,6 @@ class Requests {
   void set_strategy(Strategy strategy) { strategy_ = strategy; }
   /// Ends everything: what is under way is cancelled, and nothing is asked any more.
   void stop();
-  void set_strategy(Strategy strategy) { strategy_ = strategy; }
   /// Why that happened, if it was not somebody else who called stop().
   const std::optional<FailureUpdate>& failure() const { return failure_; }
 

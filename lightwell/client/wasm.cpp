@@ -36,10 +36,6 @@ Strategy strategy_of(uint32_t number) {
   return static_cast<Strategy>(std::min(number, static_cast<uint32_t>(Strategy::light)));
 }
 
-Strategy strategy_of(uint32_t number) {
-  return static_cast<Strategy>(std::min(number, static_cast<uint32_t>(Strategy::light)));
-}
-
 uint32_t word_of(const AttributeLayout& layout) {
   return static_cast<uint32_t>(layout.semantic) | static_cast<uint32_t>(layout.component) << 8 |
          uint32_t(layout.components) << 16 | uint32_t(layout.stride) << 20 | uint32_t(layout.normalized) << 31;
@@ -134,10 +130,6 @@ void LW_EXPORT(lw_set_strategy)(uint32_t client, uint32_t strategy) {
 
 void LW_EXPORT(lw_set_weight)(uint32_t client, uint32_t stream, float weight) {
   client_of(client).set_weight(stream, weight);
-}
-
-void LW_EXPORT(lw_set_strategy)(uint32_t client, uint32_t strategy) {
-  client_of(client).set_strategy(strategy_of(strategy));
 }
 
 void LW_EXPORT(lw_progress)(uint32_t client) {

@@ -56,8 +56,6 @@ uint32_t lw_work(uint32_t client);
 ///   complete 8 failure:  [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
 uint32_t lw_take(uint32_t client, uint32_t budget);
 
-/// Another strategy from the next request on.
-void lw_set_strategy(uint32_t client, uint32_t strategy);
 /// How much a stream matters to the present picture (Client::set_weight).
 void lw_set_weight(uint32_t client, uint32_t stream, float weight);
 /// Takes another strategy, numbered as for lw_create, from the next request on.
