@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/bake/pack_images.h"
+#include "lightwell/bake/pack_meshes.h"
+#include "lightwell/pack/writer.h"
+
+namespace lightwell {
+
+/// The streams of a pack in their order: light, meshes, images.
+struct PackContent {
+  std::vector<StreamedMesh> meshes;
+  std::vector<StreamedImage> images;
+
+  size_t mesh_stream(size_t index) const { return 1 + index; }
+  size_t image_stream(size_t index) const { return 1 + meshes.size() + index; }
+};
+
+/// Adds the extensions that do not depend on where streams lie: LIGHTWELL_progressive_mesh,
+/// LIGHTWELL_progressive_texture, LIGHTWELL_light_grids and LIGHTWELL_lamps (docs/format.md).
+void add_extensions(Document& document, const Scene& scene, const PackLight& light, const PackContent& content);
+
+/// Adds LIGHTWELL_streams: version, id, and the streams as the directory has them.
+void add_stream_table(Json& json, const PackPlan& plan, float exposure);
+
+}  // namespace lightwell

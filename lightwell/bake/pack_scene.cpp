@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/pack_scene.h"
+
+#include "lightwell/bake/pack_json.h"
+#include "lightwell/light/stream.h"
+#include "lightwell/mesh/base_places.h"
+
+namespace lightwell {
+namespace {
+
+Json& primitive_json(Json& json, const Primitive& primitive) {
+  return json["meshes"][static_cast<size_t>(primitive.source_mesh)]["primitives"]
+             [static_cast<size_t>(primitive.source_primitive)];
+}
+
+// Gives a primitive's JSON the arrays of `mesh`; material, extras and extensions stay.
+void replace_arrays(Document& document, const Primitive& primitive, const Mesh& mesh) {
+  const Json arrays = DocumentBuilder(document).primitive(mesh);
+  Json& json = primitive_json(document.json, primitive);
+  json.erase("mode");
+  json["attributes"] = arrays["attributes"];
+  json["indices"] = arrays["indices"];
+}
+
+// The glTF of the opening: every mesh at its coarsest level in arrays of its own.
+void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed, Document& document) {
+  std::vector<const Mesh*> shown(scene.primitives.size());
+  for (size_t i = 0; i < shown.size(); i++) shown[i] = &scene.primitives[i].mesh;
+  for (const StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = &mesh.encoded.base;
+  for (size_t i = 0; i < shown.size(); i++)
+    if (!scene.primitives[i].deforming && !shown[i]->faces.empty())
+      replace_arrays(document, scene.primitives[i], *shown[i]);
+}
+
+// Where an accessor's first element lies in the BIN chunk.
+uint32_t place_of(const Json& json, const Json& accessor_index) {
+  if (!accessor_index.is_number()) return 0;
+  const Json& accessor = json["accessors"][accessor_index.get<size_t>()];
+  const Json& view = json["bufferViews"][accessor["bufferView"].get<size_t>()];
+  return static_cast<uint32_t>(number(view, "byteOffset", 0) + number(accessor, "byteOffset", 0));
+}
+
+BasePlaces places_of(const Json& json, const Json& primitive) {
+  const Json& attributes = primitive["attributes"];
+  BasePlaces places;
+  places.positions = place_of(json, member(attributes, "POSITION"));
+  places.normals = place_of(json, member(attributes, "NORMAL"));
+  places.texcoords = {place_of(json, member(attributes, "TEXCOORD_0")),
+                      place_of(json, member(attributes, "TEXCOORD_1"))};
+  places.colors = place_of(json, member(attributes, "COLOR_0"));
+  places.indices = place_of(json, primitive["indices"]);
+  constexpr int unsigned_short = 5123;
+  places.short_indices = json["accessors"][primitive["indices"].get<size_t>()]["componentType"] == unsigned_short;
+  return places;
+}
+
+Result<PackStream> light_stream(const PackLight& light) {
+  LW_TRY(encoded, encode_light(*light.grid, {.seed = light.seed}));
+  PackStream stream;
+  stream.kind = StreamKind::light;
+  stream.codec = light_codec_slices;
+  ByteWriter parameters;
+  encoded.layout.write(parameters);
+  stream.parameters = parameters.release();
+  stream.error = encoded.base_error;
+  for (LightBundle& bundle : encoded.bundles)
+    stream.blocks.push_back({std::move(bundle.payload), bundle.nodes, bundle.error});
+  return stream;
+}
+
+PackStream mesh_stream(StreamedMesh& mesh, const Json& json, const Json& primitive) {
+  PackStream stream;
+  stream.kind = StreamKind::mesh;
+  stream.error = mesh.encoded.layout.base_error;
+  ByteWriter parameters;
+  mesh.encoded.layout.write(parameters);
+  places_of(json, primitive).write(parameters);
+  stream.parameters = parameters.release();
+  for (MeshBlock& block : mesh.encoded.blocks)
+    stream.blocks.push_back({std::move(block.payload), block.vertices, block.error});
+  return stream;
+}
+
+PackStream image_stream(const StreamedImage& image) {
+  PackStream stream;
+  stream.kind = StreamKind::texture;
+  stream.parameters = encode_texture_parameters(image.parameters);
+  stream.error = 1;
+  size_t left = image.file.size();
+  for (const Bytes block : texture_blocks(image.file)) {
+    left -= block.size();
+    stream.blocks.push_back({{block.begin(), block.end()},
+                             static_cast<uint32_t>(block.size()),
+                             static_cast<float>(left) / static_cast<float>(image.file.size())});
+  }
+  return stream;
+}
+
+void count(const Scene& scene, PackStatistics& statistics) {
+  for (const Primitive& primitive : scene.primitives) {
+    statistics.triangles += primitive.mesh.faces.size();
+    statistics.vertices += primitive.mesh.positions.size();
+  }
+}
+
+void count(const PackPlan& plan, size_t file_bytes, PackStatistics& statistics) {
+  for (const StreamEntry& entry : plan.streams) switch (entry.kind) {
+      case StreamKind::light: statistics.light_bytes += entry.length; break;
+      case StreamKind::mesh: statistics.geometry_bytes += entry.length; break;
+      case StreamKind::texture: statistics.texture_bytes += entry.length; break;
+    }
+  statistics.opening_bytes = file_bytes - statistics.light_bytes - statistics.geometry_bytes - statistics.texture_bytes;
+}
+
+}  // namespace
+
+Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& light, const PackOptions& options,
+                                       Progress& progress, Report& report, PackStatistics& statistics) {
+  PackContent content;
+  LW_TRY(meshes, encode_meshes(scene, options, progress));
+  content.meshes = std::move(meshes);
+  progress.stage("writing", 0, "");
+  Document document = scene.document;
+  shrink_meshes(scene, content.meshes, document);
+  content.images = shrink_images(scene, document);
+  add_extensions(document, scene, light, content);
+  drop_unused(document);
+  document = single_buffer(std::move(document), report);
+
+  std::vector<PackStream> streams;
+  LW_TRY(first, light_stream(light));
+  streams.push_back(std::move(first));
+  for (StreamedMesh& mesh : content.meshes) {
+    const Primitive& source = scene.primitives[static_cast<size_t>(mesh.primitive)];
+    streams.push_back(mesh_stream(mesh, document.json, primitive_json(document.json, source)));
+  }
+  for (const StreamedImage& image : content.images) streams.push_back(image_stream(image));
+
+  GlbParts parts = glb_parts(document);
+  LW_TRY(writer, PackWriter::create(std::move(parts.bin), std::move(streams)));
+  add_stream_table(document.json, writer.plan(), light.exposure);
+  auto file = writer.finish(glb_parts(document).json);
+  if (!file) return fail(file.error());
+  count(scene, statistics);
+  count(writer.plan(), file->size(), statistics);
+  return file;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/bake/lamps.h"
+#include "lightwell/base/progress.h"
+#include "lightwell/light/grid.h"
+#include "lightwell/scene/scene.h"
+
+namespace lightwell {
+
+struct PackOptions {
+  float position_error = 0;             ///< metres that a vertex may move; 0: 14 bits for the longest side of each mesh
+  uint64_t opening_mesh_bytes = 40960;  ///< for the coarsest levels of all meshes
+  int threads = 0;                      ///< 0: all processors
+};
+
+/// The light of a scene as a pack states it.
+struct PackLight {
+  const LightGrid* grid = nullptr;
+  LampPlan lamps;
+  bool contains_environment = false;
+  bool contains_lamps = false;  ///< the direct light of some lamp
+  float estimated_error = 0;    ///< of the grid, share of its root mean square
+  float exposure = 0;           ///< EV
+  uint64_t seed = 1;
+};
+
+struct PackStatistics {
+  uint64_t triangles = 0;  ///< of all meshes, instances counted once
+  uint64_t vertices = 0;
+  uint64_t opening_bytes = 0, geometry_bytes = 0, light_bytes = 0, texture_bytes = 0;
+};
+
+/// Makes the pack of a scene (docs/format.md): its glTF with the coarsest level of every mesh and a small picture for
+/// every image, and the streams that refine them: light first, then meshes, the ones of greatest error first, then
+/// images. Meshes that deform, lines and points go into the opening as they are. Fails when the user cancels or a limit
+/// of the format is exceeded.
+Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& light, const PackOptions& options,
+                                       Progress& progress, Report& report, PackStatistics& statistics);
+
+}  // namespace lightwell
