@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/unpack.h"
+
+#include <cmath>
+
+#include "lightwell/gltf/extensions.h"
+#include "lightwell/light/stream.h"
+#include "lightwell/mesh/base_places.h"
+#include "lightwell/pack/opening.h"
+#include "lightwell/texture/stream.h"
+
+namespace lightwell {
+namespace {
+
+// The data of a chunk of the opening.
+Bytes chunk_of(Bytes glb, uint32_t type) {
+  ByteReader reader(glb);
+  reader.take(glb_header_bytes);
+  while (reader.remaining() >= chunk_header_bytes) {
+    const uint32_t length = reader.u32();
+    const uint32_t found = reader.u32();
+    const Bytes data = reader.take(length);
+    if (found == type) return data;
+  }
+  return {};
+}
+
+bool fine_enough(const MeshDecoder& decoder, float error, const MeshLevel& level) {
+  const auto wanted = static_cast<double>(level.share) * decoder.layout().faces;
+  return decoder.complete() || (decoder.faces() >= wanted && (level.error < 0 || error <= level.error));
+}
+
+Mesh mesh_of(const MeshDecoder& decoder) {
+  Mesh mesh;
+  const size_t count = decoder.vertices();
+  const auto positions = decoder.positions().first(count);
+  mesh.positions.assign(positions.begin(), positions.end());
+  for (const Normal16& n : decoder.normals().first(std::min(count, decoder.normals().size())))
+    mesh.normals.push_back(normalized(Vec3f{{float(n[0]), float(n[1]), float(n[2])}}));
+  for (int set = 0; set < 2; set++) {
+    const auto texcoords = decoder.texcoords(set);
+    if (!texcoords.empty())
+      mesh.texcoords[static_cast<size_t>(set)].assign(texcoords.begin(),
+                                                      texcoords.begin() + static_cast<ptrdiff_t>(count));
+  }
+  for (const Color8& c : decoder.colors().first(std::min(count, decoder.colors().size())))
+    mesh.colors.push_back(Vec4f{{float(c[0]), float(c[1]), float(c[2]), float(c[3])}} / 255.0f);
+  const auto indices = decoder.indices().first(size_t(3) * decoder.faces());
+  for (size_t i = 0; i < indices.size(); i += 3) mesh.faces.push_back({indices[i], indices[i + 1], indices[i + 2]});
+  return mesh;
+}
+
+Result<Mesh> unpack_mesh(const PackReader& pack, size_t stream, const MeshLevel& level) {
+  const StreamEntry& entry = pack.directory().streams[stream];
+  ByteReader parameters(entry.parameters);
+  LW_TRY(layout, MeshLayout::read(parameters));
+  LW_TRY(places, BasePlaces::read(parameters));
+  LW_TRY(base, BaseArrays::read(layout, places, pack_bin(pack)));
+  LW_TRY(decoder, MeshDecoder::open(layout, base.view(), entry.length));
+  float error = entry.error;
+  for (uint32_t block = 0; block < entry.blocks && !fine_enough(decoder, error, level); block++) {
+    LW_TRY(payload, pack.block(stream, block));
+    LW_CHECK(decoder.append(payload));
+    error = pack.rows(stream)[block].error;
+  }
+  return mesh_of(decoder);
+}
+
+Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream) {
+  const StreamEntry& entry = pack.directory().streams[stream];
+  LW_TRY(parameters, decode_texture_parameters(entry.parameters));
+  TextureDecoder decoder(parameters);
+  for (uint32_t block = 0; block < entry.blocks; block++) {
+    LW_TRY(payload, pack.block(stream, block));
+    LW_CHECK(decoder.append(payload));
+  }
+  if (!decoder.complete()) return fail("stream " + std::to_string(stream), "the image is not complete");
+  return decoder.file();
+}
+
+// The stream that an extension names, checked to be of the kind.
+Result<size_t> stream_of(const PackReader& pack, const Json& extension, StreamKind kind) {
+  const int stream = index_of(extension, "stream");
+  const auto& streams = pack.directory().streams;
+  if (stream < 0 || static_cast<size_t>(stream) >= streams.size() || streams[static_cast<size_t>(stream)].kind != kind)
+    return fail("JSON", std::string("names no ") + to_text(kind) + " stream");
+  return static_cast<size_t>(stream);
+}
+
+Result<void> refine_meshes(const PackReader& pack, const Json& json, const MeshLevel& level, Document& document) {
+  const Json& meshes = member(json, "meshes");
+  for (size_t m = 0; m < meshes.size(); m++) {
+    const Json& primitives = member(meshes[m], "primitives");
+    for (size_t p = 0; p < primitives.size(); p++) {
+      const Json& progressive = extension(primitives[p], "LIGHTWELL_progressive_mesh");
+      if (progressive.is_null()) continue;
+      LW_TRY(stream, stream_of(pack, progressive, StreamKind::mesh));
+      LW_TRY(mesh, unpack_mesh(pack, stream, level));
+      const Json arrays = DocumentBuilder(document).primitive(mesh);
+      Json& target = document.json["meshes"][m]["primitives"][p];
+      target["attributes"] = arrays["attributes"];
+      target["indices"] = arrays["indices"];
+    }
+  }
+  return {};
+}
+
+Result<void> complete_images(const PackReader& pack, const Json& json, Document& document) {
+  for (const Json& texture : member(json, "textures")) {
+    const Json& progressive = extension(texture, "LIGHTWELL_progressive_texture");
+    const int image = index_of(texture, "source");
+    if (progressive.is_null() || image < 0) continue;
+    LW_TRY(stream, stream_of(pack, progressive, StreamKind::texture));
+    LW_TRY(file, unpack_image(pack, stream));
+    Json& target = document.json["images"][static_cast<size_t>(image)];
+    target["mimeType"] = text(progressive, "mimeType");
+    target["bufferView"] = DocumentBuilder(document).buffer_view(file);
+  }
+  return {};
+}
+
+// Removes the LIGHTWELL_ extensions, which would be wrong of the refined document.
+void drop_extensions(Json& json) {
+  auto drop = [](Json& object, std::initializer_list<const char*> names) {
+    if (!object.contains("extensions")) return;
+    for (const char* name : names) object["extensions"].erase(name);
+    if (object["extensions"].empty()) object.erase("extensions");
+  };
+  drop(json, {"LIGHTWELL_streams", "LIGHTWELL_light_grids", "LIGHTWELL_lamps"});
+  if (json.contains("meshes"))
+    for (Json& mesh : json["meshes"])
+      for (Json& primitive : mesh["primitives"]) drop(primitive, {"LIGHTWELL_progressive_mesh"});
+  if (json.contains("textures"))
+    for (Json& texture : json["textures"]) drop(texture, {"LIGHTWELL_progressive_texture"});
+  for (const char* name : {"LIGHTWELL_streams", "LIGHTWELL_light_grids", "LIGHTWELL_lamps",
+                           "LIGHTWELL_progressive_mesh", "LIGHTWELL_progressive_texture"})
+    forget_extension(json, name);
+}
+
+}  // namespace
+
+Result<Json> pack_json(const PackReader& pack) { return parse_json(chunk_of(pack.opening(), chunk_json)); }
+
+Bytes pack_bin(const PackReader& pack) { return chunk_of(pack.opening(), chunk_bin); }
+
+Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report) {
+  LW_TRY(json, pack_json(pack));
+  auto document = read_document(pack.opening(), {}, report);
+  if (!document) return document;
+  LW_CHECK(refine_meshes(pack, json, level, *document));
+  LW_CHECK(complete_images(pack, json, *document));
+  drop_extensions(document->json);
+  drop_unused(*document);
+  return document;
+}
+
+Result<LightGrid> unpack_light(const PackReader& pack, size_t stream) {
+  const StreamEntry& entry = pack.directory().streams[stream];
+  LW_TRY(decoder, LightDecoder::open(entry.parameters));
+  for (uint32_t block = 0; block < entry.blocks; block++) {
+    LW_TRY(payload, pack.block(stream, block));
+    LW_CHECK(decoder.append(payload));
+  }
+  if (!decoder.complete()) return fail("stream " + std::to_string(stream), "the light grid is not complete");
+  return decoder.grid();
+}
+
+Result<size_t> find_light_stream(const PackReader& pack) {
+  const auto& streams = pack.directory().streams;
+  for (size_t i = 0; i < streams.size(); i++)
+    if (streams[i].kind == StreamKind::light) return i;
+  return fail("", "holds no light");
+}
+
+}  // namespace lightwell

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/gltf/document.h"
+#include "lightwell/light/grid.h"
+#include "lightwell/pack/reader.h"
+
+namespace lightwell {
+
+/// How finely meshes are wanted: the coarsest level that has at least `share` of the final faces, and an error of at
+/// most `error` (in each mesh's own units) unless that is negative.
+struct MeshLevel {
+  float share = 1;
+  float error = -1;
+};
+
+/// The JSON chunk of a pack, with its LIGHTWELL_ extensions.
+Result<Json> pack_json(const PackReader& pack);
+
+/// The data of its BIN chunk, good as long as the reader.
+Bytes pack_bin(const PackReader& pack);
+
+/// The glTF of a pack at a level, without the LIGHTWELL_ extensions: the opening with refined meshes and whole images.
+Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report);
+
+/// The light grid of a light stream, complete.
+Result<LightGrid> unpack_light(const PackReader& pack, size_t stream);
+
+/// The first light stream of a pack; fails when there is none.
+Result<size_t> find_light_stream(const PackReader& pack);
+
+}  // namespace lightwell

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/verify.h"
+
+#include <functional>
+#include <memory>
+
+#include "lightwell/bake/unpack.h"
+#include "lightwell/light/stream.h"
+#include "lightwell/mesh/base_places.h"
+#include "lightwell/texture/stream.h"
+
+namespace lightwell {
+namespace {
+
+// A decoder of any kind: takes a payload and tells how many vertices, nodes or bytes it has so far.
+struct StreamDecoder {
+  std::function<Result<void>(Bytes)> append;
+  std::function<uint64_t()> count;
+  std::function<bool()> complete;
+};
+
+template <typename Decoder>
+StreamDecoder wrap(Decoder decoder, uint64_t (*count)(const Decoder&)) {
+  auto shared = std::make_shared<Decoder>(std::move(decoder));
+  return {[shared](Bytes payload) { return shared->append(payload); }, [shared, count] { return count(*shared); },
+          [shared] { return shared->complete(); }};
+}
+
+Result<StreamDecoder> open_mesh(const PackReader& pack, const StreamEntry& entry) {
+  ByteReader parameters(entry.parameters);
+  LW_TRY(layout, MeshLayout::read(parameters));
+  LW_TRY(places, BasePlaces::read(parameters));
+  LW_TRY(base, BaseArrays::read(layout, places, pack_bin(pack)));
+  LW_TRY(decoder, MeshDecoder::open(layout, base.view(), entry.length));
+  return wrap<MeshDecoder>(std::move(decoder), [](const MeshDecoder& d) { return uint64_t(d.vertices()); });
+}
+
+Result<StreamDecoder> open_stream(const PackReader& pack, const StreamEntry& entry) {
+  switch (entry.kind) {
+    case StreamKind::light: {
+      LW_TRY(decoder, LightDecoder::open(entry.parameters));
+      return wrap<LightDecoder>(std::move(decoder), [](const LightDecoder& d) { return uint64_t(d.received()); });
+    }
+    case StreamKind::mesh: return open_mesh(pack, entry);
+    case StreamKind::texture: {
+      LW_TRY(parameters, decode_texture_parameters(entry.parameters));
+      return wrap<TextureDecoder>(TextureDecoder(parameters),
+                                  [](const TextureDecoder& d) { return uint64_t(d.file().size()); });
+    }
+  }
+  return fail("", "an unknown kind");
+}
+
+// Decodes a stream to its end and checks what each row promises.
+Result<void> verify_stream(const PackReader& pack, size_t stream, uint64_t& blocks) {
+  const StreamEntry& entry = pack.directory().streams[stream];
+  LW_TRY(decoder, open_stream(pack, entry));
+  float error = entry.error;
+  for (uint32_t i = 0; i < entry.blocks; i++) {
+    const std::string name = "block " + std::to_string(i);
+    LW_TRY(payload, pack.block(stream, i));
+    const uint64_t before = decoder.count();
+    LW_CHECK(decoder.append(payload));
+    const BlockRow& row = pack.rows(stream)[i];
+    if (decoder.count() - before != row.adds)
+      return fail(name,
+                  "adds " + std::to_string(decoder.count() - before) + ", its row says " + std::to_string(row.adds));
+    if (row.error > error) return fail(name, "its row says that the error grows");
+    error = row.error;
+    blocks++;
+  }
+  if (!decoder.complete()) return fail("", "is not complete after its last block");
+  return {};
+}
+
+// The JSON repeats the directory for people and other programs; it must not say anything else.
+Result<void> verify_json(const PackReader& pack) {
+  LW_TRY(json, pack_json(pack));
+  const Json& table = extension(json, "LIGHTWELL_streams");
+  const Directory& directory = pack.directory();
+  if (text(table, "id") != to_text(directory.id))
+    return fail("JSON", "LIGHTWELL_streams has another id than the directory");
+  const Json& streams = member(table, "streams");
+  if (streams.size() != directory.streams.size())
+    return fail("JSON", "LIGHTWELL_streams has another number of streams");
+  for (size_t i = 0; i < streams.size(); i++) {
+    const StreamEntry& entry = directory.streams[i];
+    if (text(streams[i], "kind") != to_text(entry.kind) || whole_number(member(streams[i], "codec")) != entry.codec ||
+        whole_number(member(streams[i], "offset")) != entry.first ||
+        whole_number(member(streams[i], "blocks")) != entry.blocks ||
+        whole_number(member(streams[i], "bytes")) != entry.length)
+      return fail("JSON", "LIGHTWELL_streams: stream " + std::to_string(i) + " differs from the directory");
+  }
+  return {};
+}
+
+}  // namespace
+
+Verification verify_pack(const PackReader& pack) {
+  Verification verification;
+  auto note = [&](const std::string& where, const Result<void>& result) {
+    if (result) return;
+    const std::string message = result.error().message();
+    verification.errors.push_back(where.empty() ? message : where + ": " + message);
+  };
+  note("", verify_json(pack));
+  for (size_t i = 0; i < pack.directory().streams.size(); i++)
+    note("stream " + std::to_string(i) + " (" + to_text(pack.directory().streams[i].kind) + ")",
+         verify_stream(pack, i, verification.blocks));
+  note("", pack.verify_id());
+  Report report;
+  auto document = unpack_document(pack, MeshLevel{}, report);
+  if (!document) note("glTF", fail(document.error()));
+  return verification;
+}
+
+}  // namespace lightwell

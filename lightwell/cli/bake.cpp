@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <optional>
+
+#include "lightwell/bake/light_bake.h"
+#include "lightwell/bake/pack_scene.h"
+#include "lightwell/base/file.h"
+#include "lightwell/cli/arguments.h"
+#include "lightwell/cli/open_scene.h"
+#include "lightwell/render/exposure.h"
+
+namespace lightwell {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::string output;
+  std::string environment;
+  std::string grid = "auto";
+  ImportOptions import;
+  LightBakeOptions light;
+  PackOptions pack;
+};
+
+constexpr int default_nodes = 32;
+constexpr int most_nodes = 256;
+
+// Everything that a bake makes, in the order in which it is made.
+struct Bake {
+  Scene scene;
+  std::optional<TraceScene> traced;
+  LightGrid grid;
+  PackLight light;
+  std::vector<uint8_t> file;
+  LightBakeStatistics light_statistics;
+  PackStatistics pack_statistics;
+  double import_seconds = 0, light_seconds = 0, geometry_seconds = 0, write_seconds = 0;
+  Report report;
+};
+
+Result<void> import_scene(const Options& options, Bake& bake) {
+  LW_TRY(scene, open_scene(options.scene, options.import, options.environment, bake.report));
+  bake.scene = std::move(scene);
+  LW_TRY(traced, TraceScene::build(bake.scene));
+  bake.traced.emplace(std::move(traced));
+  return {};
+}
+
+Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
+  LightBakeOptions light = options.light;
+  light.seed = options.import.seed;
+  bake.light.lamps = plan_lamps(*bake.traced);
+  light.contained = bake.light.lamps.contained;
+  LW_TRY(grid, bake_light(*bake.traced, light, progress, bake.light_statistics));
+  bake.grid = std::move(grid);
+  bake.light.grid = &bake.grid;
+  bake.light.seed = options.import.seed;
+  bake.light.estimated_error = bake.light_statistics.estimated_error;
+  const std::vector<Luminaire>& luminaires = bake.traced->lights().luminaires();
+  for (size_t i = 0; i < luminaires.size(); i++) {
+    if (!light.contained[i]) continue;
+    (luminaires[i].kind == Luminaire::Kind::environment ? bake.light.contains_environment : bake.light.contains_lamps) =
+        true;
+  }
+  bake.light.exposure = choose_exposure(*bake.traced, bake.grid);
+  return {};
+}
+
+Result<void> run(const Options& options, Progress& progress, Bake& bake) {
+  Stopwatch watch;
+  progress.stage("importing", 0, "");
+  LW_CHECK(import_scene(options, bake));
+  bake.import_seconds = watch.lap();
+  LW_CHECK(bake_grid(options, progress, bake));
+  bake.light_seconds = watch.lap();
+  bake.traced.reset();
+  LW_TRY(file, make_pack(bake.scene, bake.light, options.pack, progress, bake.report, bake.pack_statistics));
+  bake.file = std::move(file);
+  bake.geometry_seconds = watch.lap();
+  LW_CHECK(write_file(options.output, bake.file));
+  bake.write_seconds = watch.lap();
+  return {};
+}
+
+nlohmann::ordered_json figures(const Bake& bake) {
+  return {{"triangles", bake.pack_statistics.triangles},
+          {"vertices", bake.pack_statistics.vertices},
+          {"nodes", bake.grid.shape.count()},
+          {"photons", bake.light_statistics.photons},
+          {"rays", bake.light_statistics.rays},
+          {"seconds",
+           {{"import", bake.import_seconds},
+            {"light", bake.light_seconds},
+            {"geometry", bake.geometry_seconds},
+            {"write", bake.write_seconds}}},
+          {"rays_per_second", static_cast<double>(bake.light_statistics.rays) / bake.light_seconds},
+          {"peak_memory", peak_memory()},
+          {"pack_bytes", bake.file.size()},
+          {"bytes",
+           {{"opening", bake.pack_statistics.opening_bytes},
+            {"geometry", bake.pack_statistics.geometry_bytes},
+            {"light", bake.pack_statistics.light_bytes},
+            {"texture", bake.pack_statistics.texture_bytes}}},
+          {"estimated_error", bake.light.estimated_error},
+          {"warnings", bake.report.warnings}};
+}
+
+int bake_scene(const Options& options, const Console& console) {
+  Bake bake;
+  Result<void> outcome;
+  {
+    ConsoleProgress progress(console);
+    outcome = run(options, progress, bake);
+  }
+  if (!console.json) console.warn(bake.report);
+  if (!outcome) return console.fail(in_file(outcome.error(), options.scene));
+  nlohmann::ordered_json result = figures(bake);
+  if (!console.json) result.erase("warnings");
+  if (options.output != "-") console.print(result);
+  return 0;
+}
+
+}  // namespace
+
+CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("bake", "Imports a scene, traces its light, orders its meshes, writes a pack");
+  command->add_option("scene", options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene")->required();
+  command->add_option("-o,--output", options->output, "The pack to write; - is stdout")->required();
+  command->add_option("--grid", options->grid, "Nodes on the light grid's longest axis, or auto (32)")
+      ->capture_default_str();
+  add_count(*command, "--photons", options->light.photons, "Photons to trace")->default_str("8M");
+  command->add_option("--environment", options->environment, "Light from all around: R,G,B, or a Radiance .hdr file");
+  add_import_options(*command, options->import);
+  command
+      ->add_option("--position-error", options->pack.position_error,
+                   "How far a vertex may move, in metres (default: 14 bits for a mesh's longest side)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", options->light.threads, "Threads, 0 for all processors")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+  command->footer(
+      "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
+      "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");
+  command->callback([=, &console, &chosen] {
+    options->light.nodes = default_nodes;
+    if (options->grid != "auto") {
+      auto nodes = parse_count(options->grid);
+      if (!nodes || *nodes < 2 || *nodes > most_nodes)
+        throw CLI::ValidationError("--grid", "is auto, or 2 to " + std::to_string(most_nodes));
+      options->light.nodes = static_cast<int>(*nodes);
+    }
+    options->pack.threads = options->light.threads;
+    chosen = [=, &console] { return bake_scene(*options, console); };
+  });
+  return command;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/base/file.h"
+#include "lightwell/cli/command.h"
+#include "lightwell/render/compare.h"
+#include "lightwell/texture/image_file.h"
+
+namespace lightwell {
+namespace {
+
+struct Options {
+  std::string picture, reference;
+  std::string metric = "flip";
+  std::string heat_map;
+};
+
+Result<Comparison> run(const Options& options) {
+  LW_TRY(picture, read_picture(options.picture));
+  LW_TRY(reference, read_picture(options.reference));
+  auto comparison = compare(picture, reference, *metric_of(options.metric), Display{.tone = ToneCurve::none});
+  if (!comparison) return fail(in_file(comparison.error(), options.picture));
+  if (!options.heat_map.empty())
+    LW_CHECK(write_file(options.heat_map, write_png(heat_map(*comparison, picture.width, picture.height))));
+  return comparison;
+}
+
+}  // namespace
+
+CLI::App* add_diff(CLI::App& program, Console& console, std::function<int()>& chosen) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("diff", "Compares two pictures (PNG, EXR or PFM)");
+  command->add_option("picture", options->picture, "A picture")->required();
+  command->add_option("reference", options->reference, "What it should be")->required();
+  command
+      ->add_option("--metric", options->metric, "How they are compared; lab is S08's mean difference in Lab, percent")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"rmse", "relmse", "deltae", "lab", "flip"}));
+  command->add_option("-o,--output", options->heat_map, "A PNG of the differences");
+  command->footer("Example:\n  lightwell diff page.png reference.png --metric deltae -o where.png");
+  command->callback([=, &console, &chosen] {
+    chosen = [=, &console] {
+      auto comparison = run(*options);
+      if (!comparison) return console.fail(comparison.error());
+      console.print({{"mean", comparison->mean}, {"p95", comparison->p95}, {"max", comparison->max}});
+      return 0;
+    };
+  });
+  return command;
+}
+
+}  // namespace lightwell

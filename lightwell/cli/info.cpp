@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/unpack.h"
+#include "lightwell/cli/command.h"
+#include "lightwell/mesh/stream.h"
+
+namespace lightwell {
+namespace {
+
+using Figures = nlohmann::ordered_json;
+
+Figures stream_figures(const PackReader& pack, size_t stream, bool blocks) {
+  const StreamEntry& entry = pack.directory().streams[stream];
+  Figures figures{
+      {"kind", to_text(entry.kind)}, {"codec", entry.codec}, {"blocks", entry.blocks}, {"bytes", entry.length}};
+  if (blocks)
+    for (const BlockRow& row : pack.rows(stream))
+      figures["rows"].push_back({{"bytes", row.length}, {"adds", row.adds}, {"error", row.error}});
+  return figures;
+}
+
+Result<Figures> mesh_figures(const StreamEntry& entry) {
+  ByteReader parameters(entry.parameters);
+  LW_TRY(layout, MeshLayout::read(parameters));
+  return Figures{{"vertices", layout.vertices},
+                 {"faces", layout.faces},
+                 {"bits_per_vertex", 8.0 * entry.length / std::max(1u, layout.vertices - layout.base_vertices)}};
+}
+
+Figures grid_figures(const PackReader& pack, const Json& grid) {
+  Figures figures{{"nodes", grid.value("nodes", Json())},
+                  {"cell", grid.value("cell", Json())},
+                  {"codec", grid.value("codec", Json())}};
+  const auto stream = static_cast<size_t>(std::max(0, index_of(grid, "stream")));
+  double nodes = 1;
+  for (const Json& n : member(grid, "nodes")) nodes *= n.is_number() ? n.get<double>() : 1;
+  if (stream < pack.directory().streams.size())
+    figures["bytes_per_node"] = pack.directory().streams[stream].length / nodes;
+  figures["contains"] = grid.value("contains", Json());
+  return figures;
+}
+
+Result<Figures> describe(const std::string& path, bool blocks) {
+  LW_TRY(pack, PackReader::open_file(path));
+  LW_TRY(json, pack_json(pack));
+  const Json& scenes = member(json, "scenes");
+  Figures figures{{"scene", text(element(scenes, static_cast<size_t>(number(json, "scene", 0))), "name")},
+                  {"id", to_text(pack.directory().id)},
+                  {"streams", Figures::array()},
+                  {"meshes", Figures::array()},
+                  {"grids", Figures::array()},
+                  {"lamps", Figures::array()}};
+  for (size_t i = 0; i < pack.directory().streams.size(); i++) {
+    figures["streams"].push_back(stream_figures(pack, i, blocks));
+    if (pack.directory().streams[i].kind != StreamKind::mesh) continue;
+    LW_TRY(mesh, mesh_figures(pack.directory().streams[i]));
+    figures["meshes"].push_back(std::move(mesh));
+  }
+  for (const Json& grid : member(extension(json, "LIGHTWELL_light_grids"), "grids"))
+    figures["grids"].push_back(grid_figures(pack, grid));
+  for (const Json& lamp : member(extension(json, "LIGHTWELL_lamps"), "lamps")) figures["lamps"].push_back(lamp);
+  return figures;
+}
+
+}  // namespace
+
+CLI::App* add_info(CLI::App& program, Console& console, std::function<int()>& chosen) {
+  struct Options {
+    std::string pack;
+    bool blocks = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("info", "Tells what is in a pack");
+  command->add_option("pack", options->pack, "A pack")->required();
+  command->add_flag("--blocks", options->blocks, "List every block");
+  command->footer("Example:\n  lightwell info room.lw.glb");
+  command->callback([=, &console, &chosen] {
+    chosen = [=, &console] {
+      auto figures = describe(options->pack, options->blocks);
+      if (!figures) return console.fail(in_file(figures.error(), options->pack));
+      console.print(*figures);
+      return 0;
+    };
+  });
+  return command;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/light/grid.h"
+#include "lightwell/scene/scene.h"
+
+namespace lightwell {
+
+/// True when the file is a pack; false also when it cannot be read.
+bool is_pack(const std::string& path);
+
+/// The scene of a file, a pack (its finest level) or a built-in scene, under `environment` unless that is empty:
+/// "R,G,B" or the name of a Radiance .hdr file.
+Result<Scene> open_scene(const std::string& path, const ImportOptions& options, const std::string& environment,
+                         Report& report);
+
+/// The light grid of a pack.
+Result<LightGrid> open_light(const std::string& path);
+
+}  // namespace lightwell
