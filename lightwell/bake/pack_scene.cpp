@@ -62,7 +62,8 @@ Result<PackStream> light_stream(const PackLight& light) {
   ByteWriter parameters;
   encoded.layout.write(parameters);
   stream.parameters = parameters.release();
-  stream.error = encoded.base_error;
+  // Of eight corners nothing is known but that they may miss as much light as there is.
+  if (!encoded.bundles.empty()) stream.error = std::max(1.0f, encoded.bundles.front().error);
   for (LightBundle& bundle : encoded.bundles)
     stream.blocks.push_back({std::move(bundle.payload), bundle.nodes, bundle.error});
   return stream;

@@ -55,7 +55,6 @@ Result<StreamDecoder> open_stream(const PackReader& pack, const StreamEntry& ent
 Result<void> verify_stream(const PackReader& pack, size_t stream, uint64_t& blocks) {
   const StreamEntry& entry = pack.directory().streams[stream];
   LW_TRY(decoder, open_stream(pack, entry));
-  float error = entry.error;
   for (uint32_t i = 0; i < entry.blocks; i++) {
     const std::string name = "block " + std::to_string(i);
     LW_TRY(payload, pack.block(stream, i));
@@ -65,8 +64,6 @@ Result<void> verify_stream(const PackReader& pack, size_t stream, uint64_t& bloc
     if (decoder.count() - before != row.adds)
       return fail(name,
                   "adds " + std::to_string(decoder.count() - before) + ", its row says " + std::to_string(row.adds));
-    if (row.error > error) return fail(name, "its row says that the error grows");
-    error = row.error;
     blocks++;
   }
   if (!decoder.complete()) return fail("", "is not complete after its last block");

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "lightwell/base/file.h"
-#include "lightwell/texture/image_file.h"
+#include "lightwell/texture/radiance_hdr.h"
 
 namespace lightwell {
 namespace {

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/lamps.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace lightwell {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+Material emitter(const Vec3f& radiance) {
+  Material material;
+  material.emission = radiance;
+  return material;
+}
+
+// A rectangle of half-sides a and b round the origin, facing +z, of n by n quads.
+Mesh rectangle(float a, float b, uint32_t n = 1) {
+  Mesh mesh;
+  for (uint32_t j = 0; j <= n; j++)
+    for (uint32_t i = 0; i <= n; i++)
+      mesh.positions.push_back({{a * (2 * static_cast<float>(i) / static_cast<float>(n) - 1),
+                                 b * (2 * static_cast<float>(j) / static_cast<float>(n) - 1), 0}});
+  for (uint32_t j = 0; j < n; j++)
+    for (uint32_t i = 0; i < n; i++) {
+      const uint32_t k = j * (n + 1) + i;
+      mesh.faces.push_back({k, k + 1, k + n + 2});
+      mesh.faces.push_back({k, k + n + 2, k + n + 1});
+    }
+  return mesh;
+}
+
+// A sphere of latitude and longitude; `turned` makes its faces look inwards.
+Mesh sphere(float radius, bool turned) {
+  Mesh mesh;
+  constexpr uint32_t rings = 32, sectors = 64;
+  for (uint32_t i = 0; i <= rings; i++)
+    for (uint32_t j = 0; j < sectors; j++) {
+      const float t = pi * static_cast<float>(i) / rings, p = 2 * pi * static_cast<float>(j) / sectors;
+      mesh.positions.push_back(Vec3f{{std::sin(t) * std::cos(p), std::cos(t), -std::sin(t) * std::sin(p)}} * radius);
+    }
+  for (uint32_t i = 0; i < rings; i++)
+    for (uint32_t j = 0; j < sectors; j++) {
+      const uint32_t a = i * sectors + j, b = i * sectors + (j + 1) % sectors, c = b + sectors, d = a + sectors;
+      const Face first = {a, d, c}, second = {a, c, b};
+      for (Face face : {first, second}) {
+        if (turned) std::swap(face[1], face[2]);
+        mesh.faces.push_back(face);
+      }
+    }
+  return mesh;
+}
+
+void add(Scene& scene, Mesh mesh, const Material& material, const Transform& to_scene = {}) {
+  scene.materials.push_back(material);
+  Primitive primitive;
+  primitive.mesh = std::move(mesh);
+  primitive.material = static_cast<int>(scene.materials.size()) - 1;
+  scene.primitives.push_back(std::move(primitive));
+  scene.instances.push_back({static_cast<int>(scene.primitives.size()) - 1, to_scene, -1});
+}
+
+LampPlan plan(const Scene& scene, size_t most = 16) {
+  auto traced = TraceScene::build(scene);
+  EXPECT_TRUE(traced);
+  return plan_lamps(*traced, most);
+}
+
+TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
+  const float angle = 0.3f;
+  const Transform turned =
+      Transform::translation({{1, 2, 3}}) * Transform::rotation({{0, 0, std::sin(angle / 2), std::cos(angle / 2)}});
+  for (uint32_t cuts : {1u, 5u}) {
+    Scene scene;
+    add(scene, rectangle(0.75f, 0.25f, cuts), emitter({{4, 2, 1}}), turned);
+    const LampPlan lamps = plan(scene);
+    ASSERT_EQ(lamps.client.size(), 1u);
+    const ClientLamp& lamp = lamps.client[0];
+    EXPECT_EQ(lamp.kind, ClientLamp::Kind::rectangle);
+    // Single precision over coordinates of a few metres.
+    EXPECT_LT(length(lamp.center - Vec3f{{1, 2, 3}}), 1e-5f);
+    EXPECT_LT(length(lamp.normal - Vec3f{{0, 0, 1}}), 1e-5f);
+    const Vec3f expected = turned.vector(Vec3f{{0.75f, 0, 0}});
+    EXPECT_LT(std::min(length(lamp.half_u - expected), length(lamp.half_u + expected)), 1e-4f);
+    EXPECT_NEAR(length(lamp.half_v), 0.25f, 1e-4f);
+    EXPECT_LT(length(lamp.radiance - Vec3f{{4, 2, 1}}), 1e-4f);
+    EXPECT_NEAR(lamp.power, 7.0f / 3 * pi * 0.75f, 1e-3f);
+    EXPECT_EQ(lamps.contained, std::vector<uint8_t>{0});
+  }
+}
+
+TEST(PlanLamps, TakesASphereAndLeavesAnInwardOneToTheGrid) {
+  Scene scene;
+  add(scene, sphere(0.5f, false), emitter({{1, 1, 1}}));
+  add(scene, sphere(3, true), emitter({{1, 1, 1}}));
+  const LampPlan lamps = plan(scene);
+  ASSERT_EQ(lamps.client.size(), 1u);
+  EXPECT_EQ(lamps.client[0].kind, ClientLamp::Kind::sphere);
+  EXPECT_NEAR(lamps.client[0].radius, 0.5f, 0.005f);  // the polyhedron lies inside the sphere
+  EXPECT_EQ(lamps.contained, (std::vector<uint8_t>{0, 1}));
+}
+
+TEST(PlanLamps, KeepsTheStrongest) {
+  Scene scene;
+  add(scene, rectangle(1, 1), Material{});
+  for (int i = 0; i < 20; i++) {
+    Lamp lamp;
+    lamp.intensity = Vec3f::filled(static_cast<float>(1 + i));
+    scene.lamps.push_back(lamp);
+  }
+  const LampPlan lamps = plan(scene, 16);
+  ASSERT_EQ(lamps.client.size(), 16u);
+  EXPECT_EQ(lamps.client.front().intensity[0], 20);
+  EXPECT_EQ(lamps.client.back().intensity[0], 5);
+  for (size_t i = 0; i < 20; i++) EXPECT_EQ(lamps.contained[i], i < 4);
+}
+
+TEST(PlanLamps, GivesTheEnvironmentToTheGrid) {
+  Scene scene;
+  add(scene, rectangle(1, 1), Material{});
+  scene.environment.radiance = Vec3f::filled(1);
+  const LampPlan lamps = plan(scene);
+  EXPECT_TRUE(lamps.client.empty());
+  EXPECT_EQ(lamps.contained, std::vector<uint8_t>{1});
+}
+
+}  // namespace
+}  // namespace lightwell
