@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
-#include "lightwell/bake/light_bake.h"
 #include "lightwell/bake/pack_scene.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
 
@@ -15,14 +15,10 @@ struct Options {
   std::string scene;
   std::string output;
   std::string environment;
-  std::string grid = "auto";
   ImportOptions import;
   LightBakeOptions light;
   PackOptions pack;
 };
-
-constexpr int default_nodes = 32;
-constexpr int most_nodes = 256;
 
 // Everything that a bake makes, in the order in which it is made.
 struct Bake {
@@ -61,7 +57,8 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
     (luminaires[i].kind == Luminaire::Kind::environment ? bake.light.contains_environment : bake.light.contains_lamps) =
         true;
   }
-  bake.light.exposure = choose_exposure(*bake.traced, bake.grid);
+  LW_TRY(camera, choose_camera(bake.scene, ""));
+  bake.light.exposure = choose_exposure(*bake.traced, camera, bake.grid, light.contained);
   return {};
 }
 
@@ -127,9 +124,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
       program.add_subcommand("bake", "Imports a scene, traces its light, orders its meshes, writes a pack");
   command->add_option("scene", options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene")->required();
   command->add_option("-o,--output", options->output, "The pack to write; - is stdout")->required();
-  command->add_option("--grid", options->grid, "Nodes on the light grid's longest axis, or auto (32)")
-      ->capture_default_str();
-  add_count(*command, "--photons", options->light.photons, "Photons to trace")->default_str("8M");
+  add_grid_options(*command, options->light);
   command->add_option("--environment", options->environment, "Light from all around: R,G,B, or a Radiance .hdr file");
   add_import_options(*command, options->import);
   command
@@ -143,13 +138,6 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
       "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
       "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");
   command->callback([=, &console, &chosen] {
-    options->light.nodes = default_nodes;
-    if (options->grid != "auto") {
-      auto nodes = parse_count(options->grid);
-      if (!nodes || *nodes < 2 || *nodes > most_nodes)
-        throw CLI::ValidationError("--grid", "is auto, or 2 to " + std::to_string(most_nodes));
-      options->light.nodes = static_cast<int>(*nodes);
-    }
     options->pack.threads = options->light.threads;
     chosen = [=, &console] { return bake_scene(*options, console); };
   });

@@ -3,7 +3,7 @@
 #include "lightwell/base/file.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/scene/import_gltf.h"
-#include "lightwell/scene/ply.h"
+#include "lightwell/scene/write_ply.h"
 
 namespace lightwell {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "lightwell/bake/unpack.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/render/camera.h"
 #include "lightwell/scene/import_gltf.h"
 
 namespace lightwell {
@@ -14,6 +15,13 @@ Result<Scene> scene_of_pack(const std::string& path, Report& report) {
   LW_TRY(pack, PackReader::open_file(path));
   LW_TRY(document, unpack_document(pack, MeshLevel{}, report));
   return scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report);
+}
+
+// Lets a constant sky survive in a pack.
+void note_sky(Scene& scene, const Vec3f& radiance) {
+  Json& json = scene.document.json;
+  const auto index = static_cast<size_t>(std::max(0, index_of(json, "scene")));
+  json["scenes"][index]["extras"]["lightwell"]["skyRadiance"] = radiance.e;
 }
 
 }  // namespace
@@ -26,9 +34,19 @@ Result<Scene> open_scene(const std::string& path, const ImportOptions& options, 
   if (!scene) return fail(in_file(scene.error(), path));
   if (!environment.empty()) {
     LW_TRY(surroundings, read_environment(environment));
+    if (!surroundings.map) note_sky(*scene, surroundings.radiance);
     scene->environment = std::move(surroundings);
   }
   return scene;
+}
+
+Result<Camera> choose_camera(const Scene& scene, const std::string& choice) {
+  if (choice.empty()) return scene.cameras.empty() ? overview_camera(scene.bounds()) : scene.cameras.front();
+  for (const Camera& camera : scene.cameras)
+    if (camera.name == choice) return camera;
+  const auto number = parse_count(choice);
+  if (number && *number < scene.cameras.size()) return scene.cameras[*number];
+  return fail("camera " + choice, "is not in the scene, which has " + std::to_string(scene.cameras.size()));
 }
 
 Result<LightGrid> open_light(const std::string& path) {

@@ -14,6 +14,9 @@ bool is_pack(const std::string& path);
 Result<Scene> open_scene(const std::string& path, const ImportOptions& options, const std::string& environment,
                          Report& report);
 
+/// The camera of a scene by its name or number; an empty choice is the first one, or an overview where there is none.
+Result<Camera> choose_camera(const Scene& scene, const std::string& choice);
+
 /// The light grid of a pack.
 Result<LightGrid> open_light(const std::string& path);
 
