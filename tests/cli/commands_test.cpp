@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The program as its users meet it: what it prints, its exit status, and what it leaves behind.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Outcome {
+  int status = 0;
+  std::string out, err;
+};
+
+class Commands : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("lightwell_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome run(const std::string& arguments) const {
+    const std::string out = path("stdout"), err = path("stderr");
+    const int status = std::system((LIGHTWELL_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string read(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  /// Bakes box-small with few photons.
+  std::string small_pack(const std::string& more = "") const {
+    const std::string pack = path("box.lw.glb");
+    const Outcome baked = run("bake box-small -o " + pack + " --photons 20k --grid 6 --quiet " + more);
+    EXPECT_EQ(baked.status, 0) << baked.err;
+    return pack;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+std::vector<std::string> keys_of(const json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST_F(Commands, HelpNamesEveryCommandAndGivesExamples) {
+  const Outcome help = run("--help");
+  EXPECT_EQ(help.status, 0);
+  for (const char* command :
+       {"scenes", "bake", "info", "verify", "serve", "fetch", "render", "probe", "export", "diff"}) {
+    EXPECT_NE(help.out.find(command), std::string::npos) << command;
+    const Outcome own = run(std::string(command) + " --help");
+    EXPECT_EQ(own.status, 0);
+    EXPECT_NE(own.out.find("Example"), std::string::npos) << command;
+  }
+}
+
+TEST_F(Commands, BadUsageIsTwo) {
+  for (const char* arguments : {"", "nonsense", "bake", "bake box-small", "bake box-small -o x --grid 1", "scenes box",
+                                "bake box-small -o x --photons many", "render box-small -o x.png --size 0x5"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments;
+    EXPECT_FALSE(outcome.err.empty()) << arguments;
+  }
+}
+
+TEST_F(Commands, BadInputIsOneLineAndOneAndLeavesNothing) {
+  write("broken.glb", "glTF but not really");
+  write("empty.ply", "");
+  write("text.obj", "v 1 2\nf 1 2 3\n");
+  for (const std::string file : {"broken.glb", "empty.ply", "text.obj", "missing.glb"}) {
+    const Outcome outcome = run("bake " + path(file) + " -o " + path("out.glb") + " --quiet");
+    EXPECT_EQ(outcome.status, 1) << file;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("lightwell: " + path(file), 0), 0u) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("out.glb")));
+  }
+}
+
+TEST_F(Commands, ScenesAreListedAndWritten) {
+  const json listed = json::parse(run("scenes --json").out);
+  ASSERT_EQ(listed["scenes"].size(), 4u);
+  EXPECT_EQ(keys_of(listed["scenes"][0]), (std::vector<std::string>{"lights", "name", "triangles"}));
+  EXPECT_EQ(run("scenes furnace -o " + path("furnace.glb")).status, 0);
+  EXPECT_EQ(read(path("furnace.glb")).substr(0, 4), "glTF");
+}
+
+TEST_F(Commands, ASceneWithoutLightIsAnError) {
+  write("dark.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome outcome = run("bake " + path("dark.obj") + " -o " + path("dark.glb") + " --quiet");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.err.find("light"), std::string::npos);
+  EXPECT_EQ(
+      run("bake " + path("dark.obj") + " -o " + path("lit.glb") + " --environment 1,1,1 --photons 10k --grid 3 --quiet")
+          .status,
+      0);
+}
+
+TEST_F(Commands, BakeReportsTheContractedKeys) {
+  const Outcome baked = run("bake box-small -o " + path("a.glb") + " --photons 20k --grid 6 --json");
+  ASSERT_EQ(baked.status, 0) << baked.err;
+  const json figures = json::parse(baked.out);
+  for (const char* key : {"triangles", "vertices", "nodes", "photons", "rays", "seconds", "rays_per_second",
+                          "peak_memory", "pack_bytes", "bytes", "estimated_error", "warnings"})
+    EXPECT_TRUE(figures.contains(key)) << key;
+  EXPECT_EQ(keys_of(figures["seconds"]), (std::vector<std::string>{"geometry", "import", "light", "write"}));
+  EXPECT_EQ(keys_of(figures["bytes"]), (std::vector<std::string>{"geometry", "light", "opening", "texture"}));
+  EXPECT_EQ(figures["pack_bytes"], fs::file_size(path("a.glb")));
+  EXPECT_EQ(figures["photons"], 20000);
+}
+
+TEST_F(Commands, TheSameSeedGivesTheSameBytesForAnyThreads) {
+  const std::string one = read(small_pack("--threads 1"));
+  EXPECT_EQ(read(small_pack("--threads 3")), one);
+  EXPECT_NE(read(small_pack("--seed 2")), one);
+}
+
+TEST_F(Commands, VerifyFindsADamagedByte) {
+  const std::string pack = small_pack();
+  const Outcome good = run("verify " + pack + " --json");
+  EXPECT_EQ(good.status, 0) << good.err;
+  EXPECT_TRUE(json::parse(good.out)["ok"]);
+  std::string bytes = read(pack);
+  bytes[bytes.size() - 1000] = static_cast<char>(bytes[bytes.size() - 1000] ^ 4);
+  write("damaged.glb", bytes);
+  const Outcome bad = run("verify " + path("damaged.glb") + " --json");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_FALSE(json::parse(bad.out)["ok"]);
+  EXPECT_NE(bad.err.find("block"), std::string::npos);
+}
+
+TEST_F(Commands, InfoTellsWhatIsInside) {
+  const json info = json::parse(run("info " + small_pack() + " --blocks --json").out);
+  for (const char* key : {"scene", "streams", "meshes", "grids", "lamps"}) EXPECT_TRUE(info.contains(key)) << key;
+  EXPECT_EQ(info["streams"][0]["kind"], "light");
+  EXPECT_EQ(info["streams"][0]["rows"].size(), info["streams"][0]["blocks"]);
+  EXPECT_EQ(info["meshes"][0]["faces"], 20000);
+  EXPECT_EQ(info["grids"][0]["contains"][0], "indirect");
+  EXPECT_EQ(info["lamps"][0]["kind"], "rectangle");
+}
+
+TEST_F(Commands, ExportWritesALevel) {
+  const std::string pack = small_pack();
+  const json whole = json::parse(run("export " + pack + " -o " + path("whole.glb") + " --json").out);
+  const json coarse = json::parse(run("export " + pack + " -o " + path("coarse.ply") + " --level 0.1 --json").out);
+  EXPECT_GE(whole["faces"], 20000);
+  EXPECT_LT(coarse["faces"], 4000);
+  EXPECT_EQ(run("bake " + path("whole.glb") + " -o " + path("again.glb") + " --photons 10k --grid 4 --quiet").status,
+            0);
+  EXPECT_EQ(run("bake " + path("coarse.ply") + " -o " + path("again.glb") +
+                " --environment 1,1,1 --photons 10k --grid 4 --quiet")
+                .status,
+            0);
+}
+
+TEST_F(Commands, RenderProbeAndDiffAgree) {
+  const std::string pack = small_pack();
+  const std::string options = " --size 40x30 --spp 4 --quiet";
+  ASSERT_EQ(run("render " + pack + " --integrator ivg --only indirect -o " + path("a.pfm") + options).status, 0);
+  ASSERT_EQ(run("render " + pack + " --integrator ivg --only indirect -o " + path("b.exr") + options).status, 0);
+  const json same = json::parse(run("diff " + path("a.pfm") + " " + path("b.exr") + " --metric rmse --json").out);
+  EXPECT_EQ(same["max"], 0.0);
+  write("points.csv", "x,y,z,nx,ny,nz\n0,1,0,0,1,0\n0.5,1,0.5,1,0,0\n");
+  const Outcome csv = run("probe " + pack + " --integrator ivg --quiet --points " + path("points.csv"));
+  EXPECT_EQ(csv.out.substr(0, csv.out.find('\n')), "x,y,z,nx,ny,nz,r,g,b,stderr");
+  EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 3);
+  const json points = json::parse(
+      run("probe " + pack + " --integrator path --spp 16 --json --quiet --points " + path("points.csv")).out);
+  EXPECT_EQ(points["points"].size(), 2u);
+  EXPECT_GT(points["points"][0]["stderr"], 0.0);
+}
+
+TEST_F(Commands, AnInterruptedBakeLeavesNothing) {
+  const std::string script = "timeout -s INT 1 " LIGHTWELL_PROGRAM " bake box-small -o " + path("cut.glb") +
+                             " --photons 1G --quiet 2>" + path("stderr");
+  const int status = std::system(script.c_str());
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_FALSE(fs::exists(path("cut.glb")));
+  for (const auto& entry : fs::directory_iterator(fs::path(path("x")).parent_path()))
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+}
+
+}  // namespace
