@@ -43,6 +43,33 @@ void use_plain_sources(Document& document) {
     forget_extension(document.json, name);
 }
 
+// What becomes of one image: the bytes that the opening holds, and the file to stream, if it is worth that.
+struct Shrunk {
+  std::vector<uint8_t> opening;
+  ImageFormat format = ImageFormat::png;
+  std::vector<StreamedImage> streamed;
+};
+
+Shrunk shrink(const Scene& scene, int index, bool color, int side) {
+  const Image& image = scene.images[static_cast<size_t>(index)];
+  Shrunk shrunk{write_preview(image, side, color), ImageFormat::png, {}};
+  shrunk.format = image_format(shrunk.opening).value_or(ImageFormat::png);
+  auto file = read_image(scene.document, index);
+  const auto format = file ? image_format(*file) : std::nullopt;
+  if (!format) return shrunk;
+  if (*format != ImageFormat::webp && file->size() <= shrunk.opening.size() + stream_worth_bytes) {
+    shrunk.opening = std::move(*file);
+    shrunk.format = *format;
+    return shrunk;
+  }
+  StreamedImage& streamed = shrunk.streamed.emplace_back();
+  streamed.image = index;
+  streamed.parameters = {static_cast<uint32_t>(file->size()), *format, static_cast<uint32_t>(image.width),
+                         static_cast<uint32_t>(image.height)};
+  streamed.file = std::move(*file);
+  return shrunk;
+}
+
 }  // namespace
 
 std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document) {
@@ -52,21 +79,13 @@ std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document)
   const std::vector<bool> color = color_images(scene);
   const int side = preview_side(scene.images.size());
   for (size_t i = 0; i < scene.images.size(); i++) {
-    const Image& image = scene.images[i];
-    auto file = read_image(scene.document, static_cast<int>(i));
-    const std::optional<ImageFormat> format = file ? image_format(*file) : std::nullopt;
-    std::vector<uint8_t> preview = write_preview(image, side, color[i]);
-    if (format && *format != ImageFormat::webp && file->size() <= preview.size() + stream_worth_bytes)
-      preview = std::move(*file);
-    else if (format)
-      streamed.push_back({static_cast<int>(i),
-                          {static_cast<uint32_t>(file->size()), *format, static_cast<uint32_t>(image.width),
-                           static_cast<uint32_t>(image.height)},
-                          std::move(*file)});
+    Shrunk shrunk = shrink(scene, static_cast<int>(i), color[i], side);
+    for (StreamedImage& image : shrunk.streamed) streamed.push_back(std::move(image));
+    const int view = DocumentBuilder(document).buffer_view(shrunk.opening);
     Json& json = document.json["images"][i];
     json.erase("uri");
-    json["mimeType"] = mime_type(image_format(preview).value_or(ImageFormat::png));
-    json["bufferView"] = DocumentBuilder(document).buffer_view(preview);
+    json["mimeType"] = mime_type(shrunk.format);
+    json["bufferView"] = view;
   }
   return streamed;
 }
