@@ -78,24 +78,22 @@ Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream)
   return decoder.file();
 }
 
-// The stream that an extension names, checked to be of the kind.
-Result<size_t> stream_of(const PackReader& pack, const Json& extension, StreamKind kind) {
-  const int stream = index_of(extension, "stream");
+// A stream that the JSON names must exist and be of the kind.
+Result<void> check_kind(const PackReader& pack, size_t stream, StreamKind kind) {
   const auto& streams = pack.directory().streams;
-  if (stream < 0 || static_cast<size_t>(stream) >= streams.size() || streams[static_cast<size_t>(stream)].kind != kind)
-    return fail("JSON", std::string("names no ") + to_text(kind) + " stream");
-  return static_cast<size_t>(stream);
+  if (stream >= streams.size() || streams[stream].kind != kind)
+    return fail("JSON", "stream " + std::to_string(stream) + " is no " + to_text(kind) + " stream");
+  return {};
 }
 
-Result<void> refine_meshes(const PackReader& pack, const Json& json, const MeshLevel& level, Document& document) {
-  const Json& meshes = member(json, "meshes");
+Result<void> refine_meshes(Document& document, const PackRefinement& refinement) {
+  const Json meshes = member(document.json, "meshes");
   for (size_t m = 0; m < meshes.size(); m++) {
     const Json& primitives = member(meshes[m], "primitives");
     for (size_t p = 0; p < primitives.size(); p++) {
-      const Json& progressive = extension(primitives[p], "LIGHTWELL_progressive_mesh");
-      if (progressive.is_null()) continue;
-      LW_TRY(stream, stream_of(pack, progressive, StreamKind::mesh));
-      LW_TRY(mesh, unpack_mesh(pack, stream, level));
+      const int stream = index_of(extension(primitives[p], "LIGHTWELL_progressive_mesh"), "stream");
+      if (stream < 0) continue;
+      LW_TRY(mesh, refinement.mesh(static_cast<size_t>(stream)));
       const Json arrays = DocumentBuilder(document).primitive(mesh);
       Json& target = document.json["meshes"][m]["primitives"][p];
       target["attributes"] = arrays["attributes"];
@@ -105,16 +103,18 @@ Result<void> refine_meshes(const PackReader& pack, const Json& json, const MeshL
   return {};
 }
 
-Result<void> complete_images(const PackReader& pack, const Json& json, Document& document) {
-  for (const Json& texture : member(json, "textures")) {
+Result<void> complete_images(Document& document, const PackRefinement& refinement) {
+  const Json textures = member(document.json, "textures");
+  for (const Json& texture : textures) {
     const Json& progressive = extension(texture, "LIGHTWELL_progressive_texture");
-    const int image = index_of(texture, "source");
-    if (progressive.is_null() || image < 0) continue;
-    LW_TRY(stream, stream_of(pack, progressive, StreamKind::texture));
-    LW_TRY(file, unpack_image(pack, stream));
+    const int stream = index_of(progressive, "stream"), image = index_of(texture, "source");
+    if (stream < 0 || image < 0) continue;
+    LW_TRY(file, refinement.image(static_cast<size_t>(stream)));
+    if (file.empty()) continue;
+    const int view = DocumentBuilder(document).buffer_view(file);
     Json& target = document.json["images"][static_cast<size_t>(image)];
     target["mimeType"] = text(progressive, "mimeType");
-    target["bufferView"] = DocumentBuilder(document).buffer_view(file);
+    target["bufferView"] = view;
   }
   return {};
 }
@@ -143,14 +143,26 @@ Result<Json> pack_json(const PackReader& pack) { return parse_json(chunk_of(pack
 
 Bytes pack_bin(const PackReader& pack) { return chunk_of(pack.opening(), chunk_bin); }
 
+Result<void> refine_document(Document& document, const PackRefinement& refinement) {
+  LW_CHECK(refine_meshes(document, refinement));
+  LW_CHECK(complete_images(document, refinement));
+  drop_extensions(document.json);
+  drop_unused(document);
+  return {};
+}
+
 Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report) {
-  LW_TRY(json, pack_json(pack));
   auto document = read_document(pack.opening(), {}, report);
   if (!document) return document;
-  LW_CHECK(refine_meshes(pack, json, level, *document));
-  LW_CHECK(complete_images(pack, json, *document));
-  drop_extensions(document->json);
-  drop_unused(*document);
+  const PackRefinement refinement{[&](size_t stream) -> Result<Mesh> {
+                                    LW_CHECK(check_kind(pack, stream, StreamKind::mesh));
+                                    return unpack_mesh(pack, stream, level);
+                                  },
+                                  [&](size_t stream) -> Result<std::vector<uint8_t>> {
+                                    LW_CHECK(check_kind(pack, stream, StreamKind::texture));
+                                    return unpack_image(pack, stream);
+                                  }};
+  LW_CHECK(refine_document(*document, refinement));
   return document;
 }
 

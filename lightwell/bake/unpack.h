@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "lightwell/gltf/document.h"
 #include "lightwell/light/grid.h"
 #include "lightwell/pack/reader.h"
@@ -19,6 +21,15 @@ Result<Json> pack_json(const PackReader& pack);
 
 /// The data of its BIN chunk, good as long as the reader.
 Bytes pack_bin(const PackReader& pack);
+
+/// Where the finer levels of an opening come from, by stream.
+struct PackRefinement {
+  std::function<Result<Mesh>(size_t stream)> mesh;
+  std::function<Result<std::vector<uint8_t>>(size_t stream)> image;  ///< an image file; empty: the preview stays
+};
+
+/// Puts finer meshes and whole images in place of those of an opening, and takes its LIGHTWELL_ extensions out.
+Result<void> refine_document(Document& document, const PackRefinement& refinement);
 
 /// The glTF of a pack at a level, without the LIGHTWELL_ extensions: the opening with refined meshes and whole images.
 Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/cli/received_scene.h"
+
+#include <algorithm>
+
+#include "lightwell/bake/unpack.h"
+#include "lightwell/texture/image_format.h"
+
+namespace lightwell {
+namespace {
+
+float component(ByteReader& reader, const AttributeLayout& layout) {
+  using Component = AttributeLayout::Component;
+  const bool n = layout.normalized;
+  switch (layout.component) {
+    case Component::i8: return static_cast<float>(static_cast<int8_t>(reader.u8())) / (n ? 127.0f : 1.0f);
+    case Component::u8: return static_cast<float>(reader.u8()) / (n ? 255.0f : 1.0f);
+    case Component::i16: return static_cast<float>(static_cast<int16_t>(reader.u16())) / (n ? 32767.0f : 1.0f);
+    case Component::u16: return static_cast<float>(reader.u16()) / (n ? 65535.0f : 1.0f);
+    case Component::f32: return reader.f32();
+  }
+  return 0;
+}
+
+template <int N>
+std::vector<Vec<float, N>> values_of(Bytes data, const AttributeLayout& layout, uint32_t count) {
+  std::vector<Vec<float, N>> values(count);
+  for (uint32_t i = 0; i < count; i++) {
+    ByteReader reader(data.subspan(size_t(i) * layout.stride, layout.stride));
+    for (int c = 0; c < std::min<int>(N, layout.components); c++) values[i][c] = component(reader, layout);
+  }
+  return values;
+}
+
+}  // namespace
+
+void ReceivedScene::apply(const Update& update) {
+  if (const auto* opening = std::get_if<OpeningUpdate>(&update)) {
+    opening_.assign(opening->glb.begin(), opening->glb.end());
+  } else if (const auto* mesh = std::get_if<MeshUpdate>(&update)) {
+    take(*mesh);
+  } else if (const auto* range = std::get_if<RangeUpdate>(&update)) {
+    take(*range);
+  } else if (const auto* draw = std::get_if<DrawUpdate>(&update)) {
+    meshes_[draw->stream].vertices = draw->vertices;
+    meshes_[draw->stream].faces = draw->faces;
+  } else if (const auto* texture = std::get_if<TextureUpdate>(&update)) {
+    images_[texture->stream].assign(texture->file.begin(), texture->file.end());
+  }
+}
+
+void ReceivedScene::take(const MeshUpdate& update) {
+  Buffers& buffers = meshes_[update.stream];
+  buffers.attributes = update.attributes;
+  for (const AttributeLayout& layout : update.attributes)
+    buffers.data.emplace_back(size_t(update.vertices) * layout.stride);
+  buffers.indices.resize(size_t(update.faces) * 12);
+}
+
+void ReceivedScene::take(const RangeUpdate& update) {
+  Buffers& buffers = meshes_[update.stream];
+  auto& target = update.buffer == RangeUpdate::indices ? buffers.indices : buffers.data[update.buffer];
+  std::copy(update.data.begin(), update.data.end(), target.begin() + static_cast<ptrdiff_t>(update.offset));
+}
+
+Mesh ReceivedScene::mesh_of(const Buffers& buffers) {
+  using Semantic = AttributeLayout::Semantic;
+  Mesh mesh;
+  for (size_t i = 0; i < buffers.attributes.size(); i++) {
+    const AttributeLayout& layout = buffers.attributes[i];
+    const Bytes data = buffers.data[i];
+    switch (layout.semantic) {
+      case Semantic::position: mesh.positions = values_of<3>(data, layout, buffers.vertices); break;
+      case Semantic::normal: mesh.normals = values_of<3>(data, layout, buffers.vertices); break;
+      case Semantic::texcoord_0: mesh.texcoords[0] = values_of<2>(data, layout, buffers.vertices); break;
+      case Semantic::texcoord_1: mesh.texcoords[1] = values_of<2>(data, layout, buffers.vertices); break;
+      case Semantic::color: mesh.colors = values_of<4>(data, layout, buffers.vertices); break;
+    }
+  }
+  for (Vec3f& normal : mesh.normals) normal = normalized(normal);
+  ByteReader reader(buffers.indices);
+  for (uint32_t i = 0; i < buffers.faces; i++) {
+    Face& face = mesh.faces.emplace_back();
+    for (uint32_t& corner : face) corner = reader.u32();
+  }
+  return mesh;
+}
+
+Result<std::vector<uint8_t>> ReceivedScene::glb() const {
+  if (opening_.empty()) return fail("", "the opening has not come");
+  Report report;
+  LW_TRY(document, read_document(opening_, {}, report));
+  const PackRefinement refinement{[this](size_t stream) -> Result<Mesh> {
+                                    const auto found = meshes_.find(static_cast<uint32_t>(stream));
+                                    if (found == meshes_.end()) return fail("", "a mesh has not come");
+                                    return mesh_of(found->second);
+                                  },
+                                  [this](size_t stream) -> Result<std::vector<uint8_t>> {
+                                    const auto found = images_.find(static_cast<uint32_t>(stream));
+                                    return found == images_.end() ? std::vector<uint8_t>() : found->second;
+                                  }};
+  LW_CHECK(refine_document(document, refinement));
+  return write_glb(std::move(document), report);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "lightwell/client/update.h"
+#include "lightwell/gltf/document.h"
+
+namespace lightwell {
+
+/// What a client has handed over so far, as a viewer would hold it: the opening's glTF, and each mesh's buffers.
+class ReceivedScene {
+ public:
+  /// Takes an update over.
+  void apply(const Update& update);
+  /// The scene at the level it has reached, as a GLB. Fails before the opening has come.
+  Result<std::vector<uint8_t>> glb() const;
+
+ private:
+  struct Buffers {
+    std::vector<AttributeLayout> attributes;
+    std::vector<std::vector<uint8_t>> data;  ///< one an attribute
+    std::vector<uint8_t> indices;
+    uint32_t vertices = 0;  ///< to be drawn
+    uint32_t faces = 0;
+  };
+
+  static Mesh mesh_of(const Buffers& buffers);
+  void take(const MeshUpdate& update);
+  void take(const RangeUpdate& update);
+
+  std::vector<uint8_t> opening_;
+  std::map<uint32_t, Buffers> meshes_;  ///< by stream
+  std::map<uint32_t, std::vector<uint8_t>> images_;
+};
+
+}  // namespace lightwell

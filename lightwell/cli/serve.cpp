@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <cstdlib>
+
+#include "lightwell/cli/command.h"
+#include "lightwell/server/server.h"
+
+namespace lightwell {
+namespace {
+
+Server* running = nullptr;
+
+void stop_server(int) {
+  if (running != nullptr) running->stop();
+}
+
+int serve(const ServerOptions& options, bool open, const Console& console) {
+  auto server = Server::listen(options);
+  if (!server) return console.fail(server.error());
+  running = &*server;
+  std::signal(SIGINT, stop_server);
+  std::signal(SIGTERM, stop_server);
+  const std::string host = options.bind.find(':') == std::string::npos ? options.bind : "[" + options.bind + "]";
+  const std::string url = "http://" + host + ":" + std::to_string(server->port()) + "/";
+  std::printf("%s\n", nlohmann::json{{"url", url}}.dump().c_str());
+  std::fflush(stdout);
+  if (open && std::system(("xdg-open '" + url + "' >/dev/null 2>&1 &").c_str()) != 0 && !console.quiet)
+    std::fprintf(stderr, "lightwell: warning: no browser could be opened\n");
+  server->run();
+  running = nullptr;
+  return 0;
+}
+
+}  // namespace
+
+CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& chosen) {
+  struct Options {
+    ServerOptions server;
+    bool open = false;
+  };
+  auto options = std::make_shared<Options>();
+  options->server.page = LIGHTWELL_PAGE;
+  CLI::App* command = program.add_subcommand("serve", "HTTP server for packs, with the page");
+  command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")->required();
+  command->add_option("--bind", options->server.bind, "Address to listen on")->capture_default_str();
+  command->add_option("--port", options->server.port, "Port; 0 for any free one")->capture_default_str();
+  command->add_option("--page", options->server.page, "Folder of the page");
+  command->add_flag("--open", options->open, "Open the page in a browser");
+  command->footer("Examples:\n  lightwell serve room.lw.glb\n  lightwell serve packs/ --bind 0.0.0.0 --port 80");
+  command->callback(
+      [=, &console, &chosen] { chosen = [=, &console] { return serve(options->server, options->open, console); }; });
+  return command;
+}
+
+}  // namespace lightwell
