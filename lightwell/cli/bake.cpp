@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <optional>
+#include <memory>
 
 #include "lightwell/bake/pack_scene.h"
 #include "lightwell/base/file.h"
@@ -23,7 +23,7 @@ struct Options {
 // Everything that a bake makes, in the order in which it is made.
 struct Bake {
   Scene scene;
-  std::optional<TraceScene> traced;
+  std::unique_ptr<const TraceScene> traced;
   LightGrid grid;
   PackLight light;
   std::vector<uint8_t> file;
@@ -37,7 +37,7 @@ Result<void> import_scene(const Options& options, Bake& bake) {
   LW_TRY(scene, open_scene(options.scene, options.import, options.environment, bake.report));
   bake.scene = std::move(scene);
   LW_TRY(traced, TraceScene::build(bake.scene));
-  bake.traced.emplace(std::move(traced));
+  bake.traced = std::move(traced);
   return {};
 }
 

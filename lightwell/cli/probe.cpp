@@ -38,16 +38,16 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Pr
   LightGrid grid;
   std::vector<uint8_t> contained;
   if (probe_options.integrator == Integrator::ivg) {
-    contained = contained_in_grid(options, traced);
+    contained = contained_in_grid(options, *traced);
     LightBakeOptions light = options.light;
     light.seed = options.import.seed;
     light.contained = contained;
-    LW_TRY(found, light_of(options.scene, traced, light, progress));
+    LW_TRY(found, light_of(options.scene, *traced, light, progress));
     grid = std::move(found);
     probe_options.grid = &grid;
     probe_options.contained = contained;
   }
-  return probe(traced, points, probe_options, progress);
+  return probe(*traced, points, probe_options, progress);
 }
 
 nlohmann::ordered_json figures(const std::vector<ProbeValue>& values) {

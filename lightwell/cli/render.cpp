@@ -48,7 +48,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);
-  const LampPlan lamps = plan_lamps(traced);
+  const LampPlan lamps = plan_lamps(*traced);
   LightGrid grid;
   Display display = options.display;
   const bool chosen_exposure = !options.exposure && options.output.ends_with(".png");
@@ -56,7 +56,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
     LightBakeOptions light = options.light;
     light.seed = options.import.seed;
     light.contained = lamps.contained;
-    LW_TRY(found, light_of(options.scene, traced, light, progress));
+    LW_TRY(found, light_of(options.scene, *traced, light, progress));
     grid = std::move(found);
     render_options.grid = &grid;
     render_options.contained = lamps.contained;
@@ -64,11 +64,11 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   if (options.exposure)
     display.exposure = *options.exposure;
   else if (chosen_exposure)
-    display.exposure = choose_exposure(traced, camera, grid, lamps.contained);
+    display.exposure = choose_exposure(*traced, camera, grid, lamps.contained);
   figures.prepare_seconds = watch.lap();
 
   render_options.seed = options.import.seed;
-  LW_TRY(picture, render(traced, camera, render_options, progress, figures.statistics));
+  LW_TRY(picture, render(*traced, camera, render_options, progress, figures.statistics));
   LW_CHECK(write_picture(options.output, picture, display));
   return figures;
 }

@@ -65,7 +65,7 @@ void add(Scene& scene, Mesh mesh, const Material& material, const Transform& to_
 LampPlan plan(const Scene& scene, size_t most = 16) {
   auto traced = TraceScene::build(scene);
   EXPECT_TRUE(traced);
-  return plan_lamps(*traced, most);
+  return plan_lamps(**traced, most);
 }
 
 TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
