@@ -159,6 +159,20 @@ Result<std::vector<uint32_t>> read_indices(const Document& document, int accesso
   return indices;
 }
 
+void update_bounds(Document& document, int accessor) {
+  auto data = locate(document, accessor);
+  if (!data || data->type.columns != 1) return;
+  data->type.normalized = false;  // the bounds are those of the stored numbers
+  Vec4f lo = Vec4f::filled(std::numeric_limits<float>::max()), hi = -lo;
+  for (const Vec4f& value : read_vectors<4>(*data)) {
+    lo = min(lo, value);
+    hi = max(hi, value);
+  }
+  Json& json = document.json["accessors"][static_cast<size_t>(accessor)];
+  json["min"] = std::vector<float>(lo.e.begin(), lo.e.begin() + data->type.rows);
+  json["max"] = std::vector<float>(hi.e.begin(), hi.e.begin() + data->type.rows);
+}
+
 int append_buffer_view(Document& document, std::vector<uint8_t> bytes, size_t stride, int target) {
   Json view = {{"buffer", document.buffers.size()}, {"byteLength", bytes.size()}};
   if (stride > 0) view["byteStride"] = stride;

@@ -52,6 +52,9 @@ std::vector<uint32_t> widen_indices(const AccessorData& data);
 /// The same of an accessor; fails when it is of another type.
 Result<std::vector<uint32_t>> read_indices(const Document& document, int accessor);
 
+/// Sets an accessor's min and max by its elements, as glTF asks of positions.
+void update_bounds(Document& document, int accessor);
+
 /// Appends a buffer and a view of all of it. Returns the view's index. References into the JSON may dangle after it.
 int append_buffer_view(Document& document, std::vector<uint8_t> bytes, size_t stride, int target);
 

@@ -110,6 +110,8 @@ class Expansion {
     if (!copy_values(*attribute, mesh.num_points(), type, stride, bytes)) return fail(name, "damaged Draco data");
     accessor["count"] = mesh.num_points();
     accessor["bufferView"] = append_buffer_view(document_, std::move(bytes), stride, array_buffer);
+    // Quantisation moves the bounds a little.
+    if (accessor.contains("min")) update_bounds(document_, index_of(primitive["attributes"], semantic.c_str()));
     return {};
   }
 

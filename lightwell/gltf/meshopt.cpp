@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <meshoptimizer.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/expand.h"
 #include "lightwell/gltf/extensions.h"
+#include "lightwell/gltf/meshopt_vertices.h"
 
 namespace lightwell {
 namespace {
@@ -63,40 +66,50 @@ Result<void> apply_filter(const Packed& packed, std::vector<uint8_t>& bytes, con
   return {};
 }
 
+bool is_version_1(const Packed& packed) {
+  return packed.mode == "ATTRIBUTES" && packed.bytes[0] == meshopt_vertices_v1;
+}
+
 /// The fewest bytes that can hold so many elements: a header of two bits for every 16 values of a byte column, or one
 /// byte a triangle or index. A file that announces more is lying, and must not make us allocate.
 double least_bytes(const Packed& packed) {
   const auto count = static_cast<double>(packed.count);
+  if (is_version_1(packed)) return least_bytes_v1(packed.count, packed.stride);
   if (packed.mode == "ATTRIBUTES") return count * static_cast<double>(packed.stride) / 64;
   return packed.mode == "TRIANGLES" ? count / 3 : count;
 }
 
+/// The elements before any filter; empty when the bytes are damaged.
+std::optional<std::vector<uint8_t>> decode_mode(const Packed& packed) {
+  if (is_version_1(packed)) return decode_meshopt_vertices_v1(packed.bytes, packed.count, packed.stride);
+  const uint8_t* from = packed.bytes.data();
+  const size_t size = packed.bytes.size();
+  std::vector<uint8_t> bytes(packed.count * packed.stride);
+  int status = -1;
+  if (packed.mode == "ATTRIBUTES")
+    status = meshopt_decodeVertexBuffer(bytes.data(), packed.count, packed.stride, from, size);
+  else if (packed.mode == "TRIANGLES")
+    status = meshopt_decodeIndexBuffer(bytes.data(), packed.count, packed.stride, from, size);
+  else
+    status = meshopt_decodeIndexSequence(bytes.data(), packed.count, packed.stride, from, size);
+  if (status != 0) return std::nullopt;
+  return bytes;
+}
+
 Result<std::vector<uint8_t>> decode(const Packed& packed, Budget& budget, const std::string& name) {
   const bool is_attributes = packed.mode == "ATTRIBUTES";
+  if (!is_attributes && packed.mode != "TRIANGLES" && packed.mode != "INDICES")
+    return fail(name, "mode is none of the extension's");
   const bool stride_fits = is_attributes ? packed.stride % 4 == 0 && packed.stride >= 4 && packed.stride <= 256
                                          : packed.stride == 2 || packed.stride == 4;
   if (!stride_fits || packed.count == 0) return fail(name, "byteStride or count is none that its mode allows");
   if (packed.mode == "TRIANGLES" && packed.count % 3 != 0) return fail(name, "count is not a multiple of 3");
   if (static_cast<double>(packed.bytes.size()) < least_bytes(packed)) return fail(name, "holds too few bytes");
   LW_CHECK(budget.take(static_cast<double>(packed.count) * static_cast<double>(packed.stride), name));
-  if (is_attributes && (packed.bytes[0] & 0x0f) != 0) return fail(name, "uses a newer vertex codec than version 0");
-
-  std::vector<uint8_t> bytes(packed.count * packed.stride);
-  int status = -1;
-  if (is_attributes)
-    status =
-        meshopt_decodeVertexBuffer(bytes.data(), packed.count, packed.stride, packed.bytes.data(), packed.bytes.size());
-  else if (packed.mode == "TRIANGLES")
-    status =
-        meshopt_decodeIndexBuffer(bytes.data(), packed.count, packed.stride, packed.bytes.data(), packed.bytes.size());
-  else if (packed.mode == "INDICES")
-    status = meshopt_decodeIndexSequence(bytes.data(), packed.count, packed.stride, packed.bytes.data(),
-                                         packed.bytes.size());
-  else
-    return fail(name, "mode is none of the extension's");
-  if (status != 0) return fail(name, "damaged meshopt data");
-  LW_CHECK(apply_filter(packed, bytes, name));
-  return bytes;
+  auto bytes = decode_mode(packed);
+  if (!bytes) return fail(name, "damaged meshopt data");
+  LW_CHECK(apply_filter(packed, *bytes, name));
+  return std::move(*bytes);
 }
 
 Result<void> expand_view(Document& document, size_t index, const char* extension_name, Budget& budget) {

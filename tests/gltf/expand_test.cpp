@@ -98,7 +98,7 @@ TEST_P(Meshopt, FaultsAreNamed) {
   EXPECT_EQ(error_of("count", 0), "byteStride or count is none that its mode allows");
   EXPECT_EQ(error_of("count", 4000000000u), "holds too few bytes");
   EXPECT_EQ(error_of("count", 99), "holds less than the byteLength of its buffer view");
-  EXPECT_EQ(error_of("mode", "POINTS"), "byteStride or count is none that its mode allows");
+  EXPECT_EQ(error_of("mode", "POINTS"), "mode is none of the extension's");
   EXPECT_EQ(error_of("filter", "BLUR"), "filter or its byteStride is none of the extension's");
   EXPECT_EQ(error_of("buffer", 5), "there is no buffers[5]");
   EXPECT_EQ(error_of("buffer", 1), "reaches outside buffers[1]");
