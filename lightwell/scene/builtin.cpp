@@ -74,13 +74,13 @@ Mesh moved(Mesh mesh, float scale, const Vec3f& by) {
   return mesh;
 }
 
-/// The modified Cornell room of Figure 1 of S08: a cube of 4 m with a red and a green wall, a lamp in the ceiling and
-/// one object of 2 * along * around triangles.
+/// The modified Cornell room of Figure 1 of S08: 4 m wide and high and 5 m deep, with a red and a green wall, a
+/// lamp in the ceiling and one object of 2 * along * around triangles.
 Document cornell_room(uint32_t along, uint32_t around, uint64_t seed) {
-  const Box3f room{{{-2, 0, -2}}, {{2, 4, 2}}};
+  const Box3f room{{{-2, 0, -2.5f}}, {{2, 4, 2.5f}}};
   const Walls walls = walls_of(room);
-  const LampCeiling top(room, {{{-0.6f, 4, -0.6f}}, {{0.6f, 4, 0.6f}}});
-  const Mesh knot = moved(relief_knot(along, around, seed), 1, {{0, 1.45f, -0.3f}});
+  const LampCeiling top(room, {{{-0.6f, 4, -1.2f}}, {{0.6f, 4, 0}}});
+  const Mesh knot = moved(relief_knot(along, around, seed), 0.8f, {{0, 1.45f, -0.6f}});
 
   SceneBuilder scene;
   const int white_paint = scene.material(white);
@@ -92,7 +92,7 @@ Document cornell_room(uint32_t along, uint32_t around, uint64_t seed) {
   scene.object("right wall", {{walls.right, scene.material(green)}});
   scene.object("lamp", {{top.lamp, scene.material(lamp)}});
   scene.object("knot", {{knot, scene.material(stone)}});
-  scene.camera("camera", {{0, 1.9, 1.95}}, {{0, 1.85, -2}}, 1.1, 800, 800);
+  scene.camera("camera", {{0, 1.9, 2.4}}, {{0, 1.85, -2.5}}, 1.15, 800, 800);
   return scene.release();
 }
 

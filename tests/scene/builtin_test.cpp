@@ -114,8 +114,8 @@ TEST(BuiltinScenes, AreClosedAndFaceTheAir) {
 TEST(BuiltinScenes, HaveColouredWallsLeftAndRight) {
   const Scene scene = load("box-small");
   const Box3f bounds = scene.bounds();
-  EXPECT_EQ(bounds.lo, (Vec3f{{-2, 0, -2}}));
-  EXPECT_EQ(bounds.hi, (Vec3f{{2, 4, 2}}));
+  EXPECT_EQ(bounds.lo, (Vec3f{{-2, 0, -2.5f}}));
+  EXPECT_EQ(bounds.hi, (Vec3f{{2, 4, 2.5f}}));
   for_each_triangle(scene, [&](const Vec3f& a, const Vec3f& b, const Vec3f& c, const Material& material) {
     const auto all_at = [&](float x) { return a[0] == x && b[0] == x && c[0] == x; };
     EXPECT_EQ(all_at(-2), material.name == "red");
