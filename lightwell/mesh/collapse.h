@@ -38,9 +38,9 @@ struct CollapseOrder {
 };
 
 /// Orders all points of a mesh until at most `vertices` vertices are left or hardly anything can collapse any more. No
-/// collapse is forbidden, so that any mesh becomes small: one that would change the topology, turn a face over or tear
-/// attributes is charged as an error of the size of what may vanish. Faces that have two corners at one point or repeat
-/// another are loose: they take no part. Fails only when cancelled.
+/// kind of collapse is forbidden, so that any mesh becomes small: one that would change the topology, turn a face over
+/// or tear attributes is charged as an error of the size of what may vanish. Only the last face never goes. Faces that
+/// have two corners at one point or repeat another are loose: they take no part. Fails only when cancelled.
 ///
 /// Quadric error metric after Garland and Heckbert (1997), half-edge form; rounds of independent removals as in the
 /// multiresolution hierarchies of Dobkin and Kirkpatrick (1985).

@@ -13,6 +13,8 @@ constexpr uint32_t none = 0xffffffffu;
 constexpr float border_weight = 3, tear_weight = 1;
 // Share of the squared edge length in the cost: among equals the short edge goes first.
 constexpr float length_weight = 1e-3f;
+// Squared error of attributes torn as far as can be, as a share of the squared length over which they smear.
+constexpr float tear_share = 1.0f / 16;
 // Least cosine between a face's normals before and after a collapse.
 constexpr float least_cosine = 0.2f;
 
@@ -68,6 +70,7 @@ void CollapseState::link_faces(const QuantizedMesh& mesh) {
   }
   for (uint32_t f = 0; f < faces_.size(); f++) {
     if (order_.vanished[f] == CollapseOrder::loose) continue;
+    live_faces_++;
     for (uint32_t k = 0; k < 3; k++) {
       const uint32_t v = faces_[f].points[k];
       faces_[f].next[k] = std::exchange(first_corner_[v], 3 * f + k);
@@ -197,10 +200,10 @@ float CollapseState::longest_edge(uint32_t v) const {
 
 CollapseState::Choice CollapseState::assess(uint32_t v, const Neighbour& u, float longest) {
   const uint32_t moved = fan_[v] - u.faces;
-  if (fan_bound_[u.point] + moved > max_fan) return {};
+  if (fan_bound_[u.point] + moved > max_fan || u.faces == live_faces_) return {};
   gather(u.point, target_star_);
   const bool sound = moved > 0 && keeps_border(u) && keeps_orientation(v, u.point) && keeps_links(v, u.point);
-  const float harm = (sound ? match_vertices(v, u.point) : 1) * longest * longest;
+  const float harm = (sound ? tear_share * match_vertices(v, u.point) : 1) * longest * longest;
   const float weight = quadric_[v].weight();
   const float deviation = weight > 0 ? quadric_[v].at(position_[u.point] - position_[v]) / weight : 0;
   return {u.point, u.cost + harm * std::max(weight, longest * longest), size_ * std::sqrt(deviation + harm)};
@@ -308,6 +311,7 @@ std::span<const uint32_t> CollapseState::collapse(uint32_t v, uint32_t u) {
     changed_.insert(changed_.end(), {spoke.a, spoke.b});
     if (spoke.has(u)) {
       order_.vanished[f] = faces_[f].vertices[k];
+      live_faces_--;
       fan_[spoke.a]--;
       fan_[spoke.b]--;
       continue;

@@ -31,7 +31,8 @@ class CollapseState {
 
   /// A lower bound of the cost of the cheapest collapse of v; 0 when it is isolated.
   float least_cost(uint32_t v);
-  /// The cheapest collapse of v, which is not isolated. Infinite when each would make a fan above max_fan.
+  /// The cheapest collapse of v, which is not isolated. Infinite when each would make a fan above max_fan or
+  /// remove the last face.
   Choice choose(uint32_t v);
   /// Collapses v onto u and locks the points whose faces changed; returns them.
   std::span<const uint32_t> collapse(uint32_t v, uint32_t u);
@@ -74,6 +75,7 @@ class CollapseState {
   std::vector<Corners> faces_;
   std::vector<uint32_t> first_corner_, fan_, fan_bound_, locked_in_;
   uint32_t round_ = 0;
+  uint32_t live_faces_ = 0;
   CollapseOrder order_;
 
   // Of the point in question, kept to save allocations.

@@ -81,6 +81,7 @@ TEST(MeshStream, AnyMeshGetsSmall) {
     if (name == "a dense soup") continue;  // 225 faces a vertex from the start
     const ProgressiveMesh progressive = stream_of(mesh).progressive;
     const auto points = static_cast<uint32_t>(progressive.first_of_point.size() - 1);
+    EXPECT_EQ(progressive.base_faces > 0, progressive.mesh.faces.size() > progressive.loose_faces);
     EXPECT_LE(progressive.base_points, name.find("soup") == std::string::npos ? 8u : std::max(60u, points / 10));
   }
 }
@@ -220,7 +221,7 @@ TEST(MeshLayout, LiesAreRefusedBeforeAnythingIsAllocated) {
   EXPECT_TRUE(opens([](MeshLayout&) {}));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.vertices = 1 << 29; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.faces = 0xffffffffu; }));
-  EXPECT_FALSE(opens([](MeshLayout& l) { l.loose_faces = l.faces; }));
+  EXPECT_FALSE(opens([](MeshLayout& l) { l.loose_faces = l.faces + 1; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.vertices = l.base_vertices - 1; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.base_vertices++; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.base_faces--; }));
