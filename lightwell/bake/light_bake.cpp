@@ -25,13 +25,16 @@ using Halves = std::array<TrackSums, 2>;
 
 /// What one thread adds up.
 struct Worker {
-  explicit Worker(const GridShape& shape) : halves{TrackSums(shape), TrackSums(shape)} {}
+  Worker(const GridShape& shape, const Solids& solids)
+      : halves{TrackSums(shape), TrackSums(shape)}, hits(solids.no_hits()) {}
 
-  void trace(const TraceScene& scene, const LightBakeOptions& options, uint64_t photon, float flux) {
+  void trace(const TraceScene& scene, const Solids& solids, const LightBakeOptions& options, uint64_t photon,
+             float flux) {
     Flight flight;
     for (PhotonWalk walk(scene, options.seed, photon); walk.next(flight);) {
       flights++;
       escaped += !std::isfinite(flight.length);
+      if (walk.end()) solids.count(*walk.end(), hits);
       const size_t luminaire = static_cast<size_t>(flight.luminaire);
       const bool contained = luminaire < options.contained.size() && options.contained[luminaire];
       // Light from the back of a surface would be met by a node's rays as the inside of a solid, see free_shares().
@@ -40,7 +43,16 @@ struct Worker {
     }
   }
 
+  Worker& operator+=(const Worker& other) {
+    for (size_t half = 0; half < halves.size(); half++) halves[half] += other.halves[half];
+    hits += other.hits;
+    flights += other.flights;
+    escaped += other.escaped;
+    return *this;
+  }
+
   Halves halves;
+  Solids::Hits hits;
   uint64_t flights = 0;
   uint64_t escaped = 0;
 };
@@ -48,11 +60,11 @@ struct Worker {
 /// Photons of what flux a deposit of weight 1 stands for: the scene's power, which is also a photon's mean flux.
 float reference_flux(const TraceScene& scene) { return max_component(scene.lights().power()); }
 
-Worker trace_photons(const TraceScene& scene, const GridShape& shape, const LightBakeOptions& options,
-                     Progress& progress) {
+Worker trace_photons(const TraceScene& scene, const Solids& solids, const GridShape& shape,
+                     const LightBakeOptions& options, Progress& progress) {
   const size_t threads = static_cast<size_t>(options.threads > 0 ? options.threads : default_threads());
   const size_t affordable = std::max<size_t>(1, sums_limit / (2 * TrackSums::bytes(shape)));
-  std::vector<Worker> workers(std::min(threads, affordable), Worker(shape));
+  std::vector<Worker> workers(std::min(threads, affordable), Worker(shape, solids));
   const float flux = reference_flux(scene);
   std::atomic<uint64_t> done = 0;
   progress.stage("light", static_cast<double>(options.photons), "photons");
@@ -60,17 +72,13 @@ Worker trace_photons(const TraceScene& scene, const GridShape& shape, const Ligh
       options.photons, 4096, static_cast<int>(workers.size()),
       [&](size_t begin, size_t end, int thread) {
         for (size_t photon = begin; photon < end; photon++) {
-          workers[static_cast<size_t>(thread)].trace(scene, options, photon, flux);
+          workers[static_cast<size_t>(thread)].trace(scene, solids, options, photon, flux);
         }
         progress.advance(static_cast<double>(done += end - begin));
       },
       [&] { return progress.cancelled(); });
   Worker& sum = workers.front();
-  for (size_t i = 1; i < workers.size(); i++) {
-    for (size_t half = 0; half < 2; half++) sum.halves[half] += workers[i].halves[half];
-    sum.flights += workers[i].flights;
-    sum.escaped += workers[i].escaped;
-  }
+  for (size_t i = 1; i < workers.size(); i++) sum += workers[i];
   return std::move(sum);
 }
 
@@ -99,14 +107,16 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   const auto start = std::chrono::steady_clock::now();
   LightGrid grid;
   grid.shape = GridShape::over(scene.bounds(), options.nodes);
-  const Worker traced = trace_photons(scene, grid.shape, options, progress);
+  Solids solids(scene);
+  const Worker traced = trace_photons(scene, solids, grid.shape, options, progress);
   if (progress.cancelled()) return fail("light", "cancelled");
 
   statistics.photons = options.photons;
   statistics.rays = traced.flights;
   statistics.escaped = static_cast<float>(static_cast<double>(traced.escaped) / static_cast<double>(traced.flights));
   const bool closed = static_cast<double>(statistics.escaped) < closed_escapes;
-  const std::vector<float> shares = free_shares(scene, grid.shape, closed, ~options.seed, options.threads);
+  solids.decide(traced.hits);
+  const std::vector<float> shares = free_shares(scene, solids, grid.shape, closed, ~options.seed, options.threads);
   for (const float share : shares) grid.valid.push_back(share >= least_free_share);
 
   // A half holds half of the photons (one more of even index when their number is odd).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/mesh/mesh.h"
+#include "lightwell/scene/scene.h"
 
 namespace lightwell {
 

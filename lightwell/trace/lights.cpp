@@ -73,15 +73,19 @@ void Lights::add_surface(uint32_t instance) {
     if (luminaire >= luminaires_.size()) {
       luminaires_.resize(luminaire + 1, {.kind = Luminaire::Kind::surface, .index = static_cast<int>(instance)});
     }
-    const Triangle t = triangle(instance, face);
+    const Element element{.luminaire = static_cast<int>(luminaire),
+                          .instance = instance,
+                          .face = face,
+                          .triangle = triangle(instance, face),
+                          .double_sided = double_sided};
+    const Triangle& t = element.triangle;
     Luminaire& piece = luminaires_[luminaire];
     piece.double_sided = double_sided;
     piece.faces.push_back(face);
-    piece.center += (t.corners[0] + t.corners[1] + t.corners[2]) * (t.area / 3);
+    piece.center += t.at({{1.0f / 3, 1.0f / 3}}) * t.area;
     piece.normal += t.normal * t.area;
     piece.area += t.area;
-    const float sides = double_sided ? 2.0f : 1.0f;
-    add({static_cast<int>(luminaire), instance, face}, mean_emission(instance, face) * (pi * t.area * sides));
+    add(element, mean_emission(element) * (pi * t.area * (double_sided ? 2.0f : 1.0f)));
   }
   for (size_t i = first; i < luminaires_.size(); i++) {
     Luminaire& piece = luminaires_[i];
@@ -104,9 +108,10 @@ Vec3f Lights::power() const {
 }
 
 Lights::Triangle Lights::triangle(uint32_t instance, uint32_t face) const {
-  Triangle t{.corners = scene_.corners(instance, face)};
-  t.normal = scene_.face_normal(instance, t.corners);
-  t.area = length(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0])) / 2;
+  const std::array<Vec3f, 3> c = scene_.corners(instance, face);
+  Triangle t{.corner = c[0], .edge_u = c[1] - c[0], .edge_v = c[2] - c[0]};
+  t.normal = scene_.face_normal(instance, c);
+  t.area = length(cross(t.edge_u, t.edge_v)) / 2;
   return t;
 }
 
@@ -116,11 +121,10 @@ Vec3f Lights::emission(const Element& element, Vec2f uv) const {
 }
 
 /// Over the face's area, by samples where there is a texture: good enough to choose by.
-Vec3f Lights::mean_emission(uint32_t instance, uint32_t face) const {
-  const Element element{.instance = instance, .face = face};
-  if (scene_.material(instance).emission_texture.image < 0) return emission(element, {{1.0f / 3, 1.0f / 3}});
+Vec3f Lights::mean_emission(const Element& element) const {
+  if (scene_.material(element.instance).emission_texture.image < 0) return emission(element, {{1.0f / 3, 1.0f / 3}});
   constexpr int samples = 64;
-  Random random(instance, face);
+  Random random(element.instance, element.face);
   Vec3f sum{};
   for (int i = 0; i < samples; i++) sum += emission(element, sample_triangle(random));
   return sum / samples;
@@ -173,14 +177,13 @@ Lights::Emission Lights::emit_from_lamp(const Lamp& lamp, Random& random) const 
 }
 
 Lights::Emission Lights::emit_from_surface(const Element& element, Random& random) const {
-  const Triangle t = triangle(element.instance, element.face);
-  const bool double_sided = scene_.material(element.instance).double_sided;
-  const Vec3f normal = double_sided && random.uniform() < 0.5f ? -t.normal : t.normal;
+  const Triangle& t = element.triangle;
+  const Vec3f normal = element.double_sided && random.uniform() < 0.5f ? -t.normal : t.normal;
   const Vec2f uv = sample_triangle(random);
   Emission emission;
   emission.ray.origin = scene_.leave(t.at(uv), normal);
   emission.ray.direction = sample_cosine_hemisphere(normal, random);
-  emission.flux = this->emission(element, uv) * (pi * t.area * (double_sided ? 2.0f : 1.0f));
+  emission.flux = this->emission(element, uv) * (pi * t.area * (element.double_sided ? 2.0f : 1.0f));
   return emission;
 }
 
@@ -229,7 +232,7 @@ Lights::Arrival Lights::sample_lamp(const Lamp& lamp, const Vec3f& point) const 
 }
 
 Lights::Arrival Lights::sample_surface(const Element& element, const Vec3f& point, Random& random) const {
-  const Triangle t = triangle(element.instance, element.face);
+  const Triangle& t = element.triangle;
   const Vec2f uv = sample_triangle(random);
   Arrival arrival;
   const Vec3f way = t.at(uv) - point;
@@ -237,7 +240,7 @@ Lights::Arrival Lights::sample_surface(const Element& element, const Vec3f& poin
   if (arrival.distance <= 0) return arrival;
   arrival.direction = way / arrival.distance;
   float cosine = -dot(arrival.direction, t.normal);
-  if (scene_.material(element.instance).double_sided) cosine = std::abs(cosine);
+  if (element.double_sided) cosine = std::abs(cosine);
   if (cosine <= 0) return arrival;
   arrival.density = arrival.distance * arrival.distance / (cosine * t.area);
   arrival.radiance = emission(element, uv) / arrival.density;
@@ -256,12 +259,13 @@ Lights::Arrival Lights::sample_environment(Random& random) const {
 float Lights::density(const Vec3f& point, const Hit& hit) const {
   const int first = first_element_[hit.instance];
   if (first < 0) return 0;
+  const size_t index = static_cast<size_t>(first) + hit.face;
   const Vec3f way = hit.position - point;
   const float distance2 = dot(way, way);
   const float cosine = std::abs(dot(way, hit.normal)) / std::sqrt(distance2);
-  const float area = triangle(hit.instance, hit.face).area;
+  const float area = elements_[index].triangle.area;
   if (!(cosine * area > 0)) return 0;
-  return choice_.probability(static_cast<size_t>(first) + hit.face) * distance2 / (cosine * area);
+  return choice_.probability(index) * distance2 / (cosine * area);
 }
 
 int Lights::luminaire(const Hit& hit) const {

@@ -71,20 +71,19 @@ class Lights {
   int environment_luminaire() const { return elements_[static_cast<size_t>(environment_element_)].luminaire; }
 
  private:
+  struct Triangle {
+    Vec3f corner{}, edge_u{}, edge_v{}, normal{};
+    float area = 0;
+
+    Vec3f at(Vec2f uv) const { return corner + edge_u * uv[0] + edge_v * uv[1]; }
+  };
   /// What the distribution chooses among: a lamp, a triangle that shines, or the environment.
   struct Element {
     int luminaire = 0;
-    uint32_t instance = 0;  // of a triangle
+    uint32_t instance = 0;  // of a triangle, as all that follows
     uint32_t face = 0;
-  };
-  struct Triangle {
-    std::array<Vec3f, 3> corners;
-    Vec3f normal{};
-    float area = 0;
-
-    Vec3f at(Vec2f uv) const {
-      return corners[0] + (corners[1] - corners[0]) * uv[0] + (corners[2] - corners[0]) * uv[1];
-    }
+    Triangle triangle{};
+    bool double_sided = false;
   };
 
   void add_lamp(int index);
@@ -93,7 +92,7 @@ class Lights {
   void add(Element element, const Vec3f& power);
   Triangle triangle(uint32_t instance, uint32_t face) const;
   Vec3f emission(const Element& element, Vec2f uv) const;
-  Vec3f mean_emission(uint32_t instance, uint32_t face) const;
+  Vec3f mean_emission(const Element& element) const;
   Emission emit_from_lamp(const Lamp& lamp, Random& random) const;
   Emission emit_from_surface(const Element& element, Random& random) const;
   Emission emit_from_environment(Random& random) const;

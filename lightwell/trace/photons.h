@@ -25,6 +25,8 @@ class PhotonWalk {
   PhotonWalk(const TraceScene& scene, uint64_t seed, uint64_t index);
   /// The next flight; false when the photon is absorbed or gone.
   bool next(Flight& flight);
+  /// Where the last flight ended; null when it did not meet a surface.
+  const Hit* end() const { return at_surface_ ? &hit_ : nullptr; }
 
  private:
   bool reflect(Flight& flight);

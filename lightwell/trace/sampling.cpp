@@ -13,8 +13,7 @@ Frame::Frame(const Vec3f& normal) : z(normal) {
 
 Vec3f sample_cosine_hemisphere(const Vec3f& normal, Random& random) {
   const Vec3f disc = sample_disc(random);
-  const float height = std::sqrt(std::max(0.0f, 1 - dot(disc, disc)));
-  return normalized(Frame(normal).to_world({{disc[0], disc[1], height}}));
+  return Frame(normal).to_world({{disc[0], disc[1], std::sqrt(1 - dot(disc, disc))}});
 }
 
 Vec3f sample_sphere(Random& random) {
@@ -25,9 +24,11 @@ Vec3f sample_sphere(Random& random) {
 }
 
 Vec3f sample_disc(Random& random) {
-  const float radius = std::sqrt(random.uniform());
-  const float angle = 2 * pi * random.uniform();
-  return {{radius * std::cos(angle), radius * std::sin(angle), 0}};
+  // By rejection from the square: cheaper than sine and cosine.
+  for (;;) {
+    const float x = 2 * random.uniform() - 1, y = 2 * random.uniform() - 1;
+    if (x * x + y * y < 1) return {{x, y, 0}};
+  }
 }
 
 Vec2f sample_triangle(Random& random) {

@@ -26,10 +26,6 @@ RTCRay embree_ray(const Ray& ray) {
   return r;
 }
 
-Vec3f barycentric(const std::array<Vec3f, 3>& c, float u, float v) {
-  return c[0] + (c[1] - c[0]) * u + (c[2] - c[0]) * v;
-}
-
 template <typename T>
 T interpolated(const std::vector<T>& values, const Face& face, float u, float v) {
   return values[face[0]] * (1 - u - v) + values[face[1]] * u + values[face[2]] * v;
@@ -173,12 +169,18 @@ bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
   hit.u = r.hit.u;
   hit.v = r.hit.v;
   hit.distance = r.ray.tfar;
-  const std::array<Vec3f, 3> c = corners(hit.instance, hit.face);
-  hit.position = barycentric(c, hit.u, hit.v);
-  hit.normal = face_normal(hit.instance, c);
+  hit.position = ray.origin + ray.direction * hit.distance;
+  hit.normal = front_normal(hit.instance, {{r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}});
   if (dot(hit.normal, hit.normal) == 0) hit.normal = -ray.direction;  // a sliver without area
   hit.front = dot(hit.normal, ray.direction) < 0;
   return true;
+}
+
+/// The unit normal of a front from the face's normal by its winding, in the space that Embree has the face in.
+Vec3f TraceScene::front_normal(uint32_t instance, const Vec3f& by_winding) const {
+  const Placed& placed = placed_[instance];
+  if (!placed.scene_positions) return scene_.instances[instance].to_scene.normal(normalized(by_winding));
+  return normalized(placed.mirrored ? -by_winding : by_winding);
 }
 
 bool TraceScene::occluded(const Ray& ray, Random& random) const {

@@ -77,6 +77,9 @@ class TraceScene {
   /// The unit normal of a face's front, given its corners.
   Vec3f face_normal(uint32_t instance, const std::array<Vec3f, 3>& corners) const;
 
+  /// What Embree made of it, for measurements.
+  RTCSceneTy* embree() const { return embree_; }
+
   /// How far off a surface a ray starts so as not to meet it again, metres.
   float offset() const { return offset_; }
   /// The origin of a ray that leaves a surface at `position` on the side of `normal`.
@@ -100,6 +103,7 @@ class TraceScene {
   RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene);
   RTCSceneTy* shared_scene(int primitive, Placed& placed);
   void mark_uniform(Placed& placed) const;
+  Vec3f front_normal(uint32_t instance, const Vec3f& by_winding) const;
   float coverage(uint32_t instance, uint32_t face, float u, float v) const;
   static void filter(const RTCFilterFunctionNArguments* arguments);
 

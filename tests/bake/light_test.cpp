@@ -116,17 +116,21 @@ TEST(BakeLight, GivesTheSameBytesForAnyNumberOfThreads) {
 }
 
 // A solid block in a room: the nodes in it are invalid, and filled from outside; the others stay valid.
+// Whether its material is double-sided, as careless files have it, does not matter.
 TEST(BakeLight, KnowsTheNodesInsideASolid) {
-  Scene scene = scene_of(room({{0, 0, 0}}, {{4, 4, 4}}), lambertian(0.5f, 1));
-  add(scene, block({{1.2f, 1.2f, 1.2f}}, {{2.8f, 2.8f, 2.8f}}), lambertian(0.5f));
-  const Baked baked = bake(*traced(scene), options(9, 50000));
-  for (size_t node = 0; node < baked.grid.valid.size(); node++) {
-    const Vec3f p = baked.grid.shape.position(baked.grid.shape.node(node));
-    // A node's box reaches 0.25 m to each side.
-    const Vec3f off = max(p - Vec3f::filled(2), Vec3f::filled(2) - p);
-    const bool inside = max_component(off) < 0.6f;
-    EXPECT_EQ(baked.grid.valid[node], !inside) << p[0] << " " << p[1] << " " << p[2];
-    EXPECT_GT(baked.grid.moments[node].m[0][0], 0);
+  for (const bool double_sided : {false, true}) {
+    Scene scene = scene_of(room({{0, 0, 0}}, {{4, 4, 4}}), lambertian(0.5f, 1));
+    add(scene, block({{1.2f, 1.2f, 1.2f}}, {{2.8f, 2.8f, 2.8f}}), lambertian(0.5f));
+    scene.materials.back().double_sided = double_sided;
+    const Baked baked = bake(*traced(scene), options(9, 50000));
+    for (size_t node = 0; node < baked.grid.valid.size(); node++) {
+      const Vec3f p = baked.grid.shape.position(baked.grid.shape.node(node));
+      // A node's box reaches 0.25 m to each side.
+      const Vec3f off = max(p - Vec3f::filled(2), Vec3f::filled(2) - p);
+      const bool inside = max_component(off) < 0.6f;
+      EXPECT_EQ(baked.grid.valid[node], !inside) << p[0] << " " << p[1] << " " << p[2];
+      EXPECT_GT(baked.grid.moments[node].m[0][0], 0);
+    }
   }
 }
 
@@ -143,8 +147,8 @@ TEST(BakeLight, IgnoresTheLightOfBacks) {
   EXPECT_EQ(sides().first, 0);
   EXPECT_GT(sides().second, 0.5f);
   scene.materials.back().double_sided = true;
-  // 5 % is the noise of some 1500 photons a node, twice.
-  EXPECT_NEAR(sides().first / sides().second, 1, 0.1f);
+  // Some 200 photons a node and direction: 7 % for each side, three times that.
+  EXPECT_NEAR(sides().first / sides().second, 1, 0.3f);
 }
 
 // An open floor under a constant sky: pi L from above straight from the sky, when the grid is to hold it, and nothing

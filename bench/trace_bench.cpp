@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Tracing photons through dragon-room without depositing them, against Embree alone on the same rays, in turns. The
+// ratio is printed at the end.
+#include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
+
+#include <ctime>
+#include <memory>
+
+#include "lightwell/trace/photons.h"
+
+namespace lightwell {
+namespace {
+
+constexpr uint64_t photons = 100'000;
+
+/// The room, and the rays that its photons' flights are.
+struct Room {
+  Scene scene;
+  std::unique_ptr<const TraceScene> trace;
+  std::vector<Ray> rays;
+};
+
+const Room* room() {
+  static const std::unique_ptr<const Room> loaded = [] {
+    auto result = std::make_unique<Room>();
+    Report report;
+    auto scene = load_scene(LIGHTWELL_SHARED "/data/rooms/dragon-room.glb", {}, report);
+    if (!scene) return std::unique_ptr<Room>();
+    result->scene = std::move(*scene);
+    auto trace = TraceScene::build(result->scene);
+    if (!trace) return std::unique_ptr<Room>();
+    result->trace = std::move(*trace);
+    Flight flight;
+    for (uint64_t i = 0; i < photons; i++) {
+      for (PhotonWalk walk(*result->trace, 1, i); walk.next(flight);) {
+        result->rays.push_back({flight.origin, flight.direction});
+      }
+    }
+    return result;
+  }();
+  return loaded.get();
+}
+
+float walk_photons(const TraceScene& trace) {
+  float sum = 0;
+  Flight flight;
+  for (uint64_t i = 0; i < photons; i++) {
+    for (PhotonWalk walk(trace, 1, i); walk.next(flight);) sum += flight.length;
+  }
+  return sum;
+}
+
+float intersect_alone(const TraceScene& trace, const std::vector<Ray>& rays) {
+  float sum = 0;
+  for (const Ray& ray : rays) {
+    RTCRayHit r{};
+    r.ray = {.org_x = ray.origin[0],
+             .org_y = ray.origin[1],
+             .org_z = ray.origin[2],
+             .tnear = 0,
+             .dir_x = ray.direction[0],
+             .dir_y = ray.direction[1],
+             .dir_z = ray.direction[2],
+             .time = 0,
+             .tfar = ray.far,
+             .mask = ~0u,
+             .id = 0,
+             .flags = 0};
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(trace.embree(), &context, &r);
+    sum += r.ray.tfar;
+  }
+  return sum;
+}
+
+void photons_against_embree(benchmark::State& state) {
+  if (!room()) {
+    state.SkipWithError("../shared/data/rooms/dragon-room.glb is not there");
+    return;
+  }
+  const auto seconds = [](auto&& run) {
+    const std::clock_t start = std::clock();  // of the processor: the ratio also holds on a busy machine
+    benchmark::DoNotOptimize(run());
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  double ours = 0, alone = 0;
+  for (auto _ : state) {
+    ours += seconds([] { return walk_photons(*room()->trace); });
+    alone += seconds([] { return intersect_alone(*room()->trace, room()->rays); });
+  }
+  const double rays = static_cast<double>(room()->rays.size()) * static_cast<double>(state.iterations());
+  state.counters["ratio"] = alone / ours;
+  state.counters["photon_rays_per_second"] = rays / ours;
+  state.counters["embree_rays_per_second"] = rays / alone;
+}
+BENCHMARK(photons_against_embree)->Unit(benchmark::kMillisecond)->Iterations(5);
+
+}  // namespace
+}  // namespace lightwell
+
+BENCHMARK_MAIN();
