@@ -28,12 +28,10 @@ interface Fresh {
   end: number;
 }
 
-/** One state of the mesh that can be drawn: the index ranges and, once whole, the number of faces. */
+/** The way to the mesh's next state: index ranges and, once it is whole, the number of faces. */
 interface Batch {
   ranges: RangeEvent[];
-  bytes: number;
-  faces: number;
-  whole: boolean;
+  faces: number | null;
 }
 
 /**
@@ -46,9 +44,10 @@ export class MeshRefinement implements Refinement {
   readonly #index: HalfBuffers;
   #fresh: Fresh[] = [];
   #batches: Batch[] = [];
-  #sweepingFaces = 0;
-  #sweepingBytes = 0;
+  #faces = 0;
   #consumed = 0;
+  /** Bytes of indices that came while a whole batch was waiting: not consumed before that is taken up. */
+  #held = 0;
 
   /** `base` is what is drawn until the stream says otherwise; its bounds are replaced by those of the final mesh. */
   constructor(layout: MeshEvent, base: BufferGeometry, bounds: Box3) {
@@ -69,12 +68,12 @@ export class MeshRefinement implements Refinement {
   }
 
   get pending(): boolean {
-    return this.#fresh.length > 0 || this.#index.sweeping || this.#batches[0]?.whole === true;
+    return this.#fresh.length > 0 || this.#index.sweeping || this.#wholeBatch;
   }
 
   receive(event: RangeEvent | DrawEvent): void {
-    if (event.type === 'draw') this.#close(event.faces);
-    else if (event.buffer === INDICES) this.#openBatch().ranges.push(event);
+    if (event.type === 'draw') this.#openBatch().faces = event.faces;
+    else if (event.buffer === INDICES) this.#receiveIndices(event);
     else this.#receiveVertices(event);
   }
 
@@ -83,8 +82,7 @@ export class MeshRefinement implements Refinement {
     if (this.#fresh.length > 0) return false;
     if (!this.#index.sweeping && !this.#beginSweep()) return false;
     if (!this.#index.advance(budget)) return false;
-    this.geometry.setDrawRange(this.#index.start, 3 * this.#sweepingFaces);
-    this.#consumed += this.#sweepingBytes;
+    this.geometry.setDrawRange(this.#index.start, 3 * this.#faces);
     return true;
   }
 
@@ -107,21 +105,25 @@ export class MeshRefinement implements Refinement {
     new Uint8Array(buffer, byteOffset).set(event.data, event.offset);
     const begin = event.offset / BYTES_PER_ELEMENT;
     this.#fresh.push({ attribute, begin, end: begin + event.data.length / BYTES_PER_ELEMENT });
-    this.#openBatch().bytes += event.data.length;
+  }
+
+  /** Batches of any size come whole, since they are consumed as they come; but only one waits for its turn. */
+  #receiveIndices(event: RangeEvent): void {
+    if (this.#wholeBatch) this.#held += event.data.length;
+    else this.#consumed += event.data.length;
+    this.#openBatch().ranges.push(event);
+  }
+
+  get #wholeBatch(): boolean {
+    return this.#batches.length > 0 && this.#batches[0]!.faces !== null;
   }
 
   #openBatch(): Batch {
     const last = this.#batches.at(-1);
-    if (last !== undefined && !last.whole) return last;
-    const batch: Batch = { ranges: [], bytes: 0, faces: 0, whole: false };
+    if (last !== undefined && last.faces === null) return last;
+    const batch: Batch = { ranges: [], faces: null };
     this.#batches.push(batch);
     return batch;
-  }
-
-  #close(faces: number): void {
-    const batch = this.#openBatch();
-    batch.faces = faces;
-    batch.whole = true;
   }
 
   #advanceVertices(budget: UploadBudget): void {
@@ -132,6 +134,7 @@ export class MeshRefinement implements Refinement {
       if (count === 0 || !budget.take(count * size)) return;
       attribute.addUpdateRange(begin, count);
       attribute.needsUpdate = true;
+      this.#consumed += count * size;
       if (begin + count === end) this.#fresh.shift();
       else this.#fresh[0]!.begin += count;
     }
@@ -139,19 +142,16 @@ export class MeshRefinement implements Refinement {
 
   /** Puts all whole batches into the hidden half of the indices. */
   #beginSweep(): boolean {
-    const open = this.#batches.findIndex((batch) => !batch.whole);
-    const batches = this.#batches.splice(0, open === -1 ? this.#batches.length : open);
-    if (batches.length === 0) return false;
+    if (!this.#wholeBatch) return false;
     this.#index.begin();
-    this.#sweepingBytes = 0;
-    for (const batch of batches) {
-      this.#sweepingFaces = batch.faces;
-      this.#sweepingBytes += batch.bytes;
-      for (const { offset, data } of batch.ranges) {
+    for (let batch = this.#batches[0]; batch !== undefined && batch.faces !== null; batch = this.#batches[0]) {
+      this.#faces = batch.faces;
+      for (const { offset, data } of batch.ranges)
         this.#index.write(offset / 4, new Uint32Array(data.buffer, data.byteOffset, data.length / 4));
-        this.#sweepingBytes += data.length;
-      }
+      this.#batches.shift();
     }
+    this.#consumed += this.#held;
+    this.#held = 0;
     return true;
   }
 }
