@@ -15,15 +15,15 @@ const TYPES = {
 
 /**
  * A plain web server for tests. `routes` maps a path, or the beginning of one that ends in a slash, to a file or folder, or to
- * the text of an answer. Options: `ranges` false answers 200 to every request; `delay(path)` gives milliseconds to wait
- * before an answer; `wasmType` is the content type of WebAssembly.
+ * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly;
+ * `port` 0 takes any.
  */
-export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], delay = () => 0 } = {}) {
+export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], port = 0 } = {}) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
-    setTimeout(() => answer(routes, { ranges, wasmType }, path, request, response), delay(path));
+    void answer(routes, { ranges, wasmType }, path, request, response);
   });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  await new Promise((resolve) => server.listen(port, '127.0.0.1', resolve));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
     stop: () => {
@@ -59,8 +59,9 @@ async function answer(routes, { ranges, wasmType }, path, request, response) {
 function resolveRoute(routes, path) {
   const exact = routes[path];
   if (exact?.text !== undefined) return exact;
-  if (exact !== undefined) return { file: exact };
-  const prefix = Object.keys(routes).find((route) => route.endsWith('/') && path.startsWith(route));
+  if (exact !== undefined && !path.endsWith('/')) return { file: exact };
+  const prefixes = Object.keys(routes).filter((route) => route.endsWith('/') && path.startsWith(route));
+  const prefix = prefixes.sort((a, b) => b.length - a.length)[0];
   if (prefix === undefined || path.includes('..')) return null;
   return { file: `${routes[prefix]}/${path.slice(prefix.length) || 'index.html'}` };
 }

@@ -7,11 +7,9 @@
 export async function loadWasm(url: string): Promise<WebAssembly.Exports> {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: the server answers ${response.status}`);
-  const whole = response.clone();
-  const module = await WebAssembly.compileStreaming(response).catch(async () =>
-    WebAssembly.compile(await whole.arrayBuffer()),
-  );
-  const { exports } = await WebAssembly.instantiate(module, {});
+  const streams = response.headers.get('Content-Type')?.startsWith('application/wasm') ?? false;
+  const module = streams ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+  const { exports } = await WebAssembly.instantiate(await module, {});
   (exports['_initialize'] as (() => void) | undefined)?.();
   return exports;
 }

@@ -152,8 +152,9 @@ export class PackSession {
       if (state !== this.#state) events.push({ type: 'connection', state });
       this.#state = state;
     }
-    const last = events.some((event) => event.type === 'connection' || event.type === 'failure');
-    if (!last && time - this.#progressTime < PROGRESS_INTERVAL) return;
+    const ended = events.some((event) => event.type === 'connection' || event.type === 'failure');
+    if (!ended && this.#state === 'complete') return;
+    if (!ended && time - this.#progressTime < PROGRESS_INTERVAL) return;
     this.#progressTime = time;
     this.#rate.add(time / 1000, counts.bytes[0]);
     const share = ([done, total]: [number, number]) => ({ done, total });

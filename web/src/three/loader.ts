@@ -58,7 +58,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
     if (renderer === null) throw new Error('LightwellLoader: call setRenderer before loading');
     const connection = new PackConnection(url, this.#options);
     try {
-      const { glb, later } = await receiveOpening(connection, onProgress);
+      const { glb, later } = await receiveOpening(url, connection, onProgress);
       const opening = await readOpening(glb, this.manager);
       const scene = await LightwellScene.create(opening, connection, renderer, this.#options);
       setTimeout(() => {
@@ -75,6 +75,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
 
 /** Waits for the opening; what comes behind it is kept for the scene. */
 function receiveOpening(
+  url: string,
   connection: PackConnection,
   onProgress?: (event: globalThis.ProgressEvent) => void,
 ): Promise<{ glb: ArrayBuffer; later: PackEvent[] }> {
@@ -82,7 +83,7 @@ function receiveOpening(
   return new Promise((resolve, reject) => {
     connection.onEvent = (event) => {
       if (event.type === 'opening') resolve({ glb: event.glb, later });
-      else if (event.type === 'failure') reject(new Error(event.message));
+      else if (event.type === 'failure') reject(new Error(`${url}: ${event.message}`));
       else if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
       later.push(event);
     };

@@ -42,6 +42,7 @@ export class MeshRefinement implements Refinement {
   readonly geometry = new BufferGeometry();
   readonly #attributes: BufferAttribute[];
   readonly #index: HalfBuffers;
+  readonly #finalFaces: number;
   #fresh: Fresh[] = [];
   #batches: Batch[] = [];
   #faces = 0;
@@ -58,10 +59,14 @@ export class MeshRefinement implements Refinement {
       const source = base.getAttribute(name);
       if (source !== undefined) copyElements(source as BufferAttribute, this.#attributes[i]!);
     });
+    this.#finalFaces = layout.faces;
     this.#index = new HalfBuffers(3 * layout.faces);
     const baseIndices = base.index?.array ?? Uint32Array.from({ length: base.getAttribute('position').count }, (_, i) => i);
     this.#index.initialise(baseIndices);
     this.geometry.setIndex(this.#index.attribute);
+    // Creating a buffer hands over everything, but three.js leaves the ranges standing.
+    for (const attribute of [...this.#attributes, this.#index.attribute])
+      attribute.onUpload(() => attribute.clearUpdateRanges());
     this.geometry.setDrawRange(0, baseIndices.length);
     this.geometry.boundingBox = bounds.clone();
     this.geometry.boundingSphere = bounds.getBoundingSphere(new Sphere());
@@ -69,6 +74,11 @@ export class MeshRefinement implements Refinement {
 
   get pending(): boolean {
     return this.#fresh.length > 0 || this.#index.sweeping || this.#wholeBatch;
+  }
+
+  /** Whether the final mesh is drawn. */
+  get complete(): boolean {
+    return this.geometry.drawRange.count === 3 * this.#finalFaces && !this.pending;
   }
 
   receive(event: RangeEvent | DrawEvent): void {

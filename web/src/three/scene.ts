@@ -172,7 +172,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     let pending = false;
     for (const refinement of this.#refinements()) {
       const changed = refinement.advance(budget);
-      if (changed && refinement instanceof MeshRefinement) this.dispatchEvent({ type: 'geometry' });
+      if (changed && refinement instanceof MeshRefinement) this.#onGeometry(refinement);
       consumed += refinement.takeConsumed();
       pending ||= refinement.pending;
     }
@@ -182,6 +182,13 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       this.#complete = true;
       this.dispatchEvent({ type: 'complete' });
     }
+  }
+
+  #onGeometry(refinement: MeshRefinement): void {
+    this.dispatchEvent({ type: 'geometry' });
+    if (!refinement.complete) return;
+    for (const { meshes } of this.opening.primitives.values())
+      for (const mesh of meshes) if (mesh.geometry === refinement.geometry) mesh.frustumCulled = true;
   }
 
   /** In the order in which they share a frame's bytes: light is small and seen everywhere. */
@@ -197,7 +204,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const { min, max } = primitive.extension.bounds;
     const bounds = new Box3(new Vector3(...min), new Vector3(...max));
     const refinement = new MeshRefinement(layout, primitive.base, bounds);
-    for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
+    for (const mesh of primitive.meshes) {
+      mesh.geometry = refinement.geometry;
+      // three.js hands nothing over of what it does not draw: it would all come at once when it comes into sight.
+      mesh.frustumCulled = false;
+    }
     primitive.base.dispose();
     this.#meshes.set(layout.stream, refinement);
     this.#changed();
