@@ -23,6 +23,8 @@ interface Exports {
 }
 
 const ABI_VERSION = 1;
+/** How nodes of the light grid that have not come are filled: see lightwell/client/wasm.h. */
+const FILL_PUSH_PULL = 1;
 const STRATEGIES: Strategy[] = ['interleave', 'geometry', 'light'];
 const SEMANTICS: Semantic[] = ['position', 'normal', 'texcoord_0', 'texcoord_1', 'color'];
 const COMPONENTS: Component[] = ['i8', 'u8', 'i16', 'u16', 'f32'];
@@ -54,7 +56,7 @@ export class WasmClient {
     const version = this.#wasm.lw_abi_version();
     if (version !== ABI_VERSION) throw new Error(`lightwell.wasm is of interface ${version}, this script of ${ABI_VERSION}`);
     const seed = Math.floor(Math.random() * 2 ** 32);
-    this.#handle = this.#wasm.lw_create(STRATEGIES.indexOf(strategy), 0, seed);
+    this.#handle = this.#wasm.lw_create(STRATEGIES.indexOf(strategy), FILL_PUSH_PULL, seed);
   }
 
   destroy(): void {
