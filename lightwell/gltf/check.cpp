@@ -54,6 +54,12 @@ Result<uint64_t> size_member(const Json& object, const char* key, int64_t least,
   return static_cast<uint64_t>(size);
 }
 
+Result<void> check_array(const Json& object, const char* key, const std::string& name) {
+  const Json& value = member(object, key);
+  if (!value.is_null() && !value.is_array()) return fail(name, std::string(key) + " is not an array");
+  return {};
+}
+
 Result<void> check_buffer(const Json&, const Json& buffer, const std::string& name, Report&) {
   LW_CHECK(size_member(buffer, "byteLength", 1, -1, name));
   return {};
@@ -135,7 +141,7 @@ Result<void> check_primitive(const Json& json, const Json& primitive, const std:
       return fail(name, "attribute " + semantic.substr(0, 40) + " has another count than the others");
     count = own;
   }
-  return {};
+  return check_array(primitive, "targets", name);
 }
 
 Result<void> check_mesh(const Json& json, const Json& mesh, const std::string& name, Report&) {
@@ -147,6 +153,10 @@ Result<void> check_mesh(const Json& json, const Json& mesh, const std::string& n
 }
 
 Result<void> check_node(const Json&, const Json& node, const std::string& name, Report&) {
+  LW_CHECK(check_array(node, "children", name));
+  const Json& instances = member(extension(node, "EXT_mesh_gpu_instancing"), "attributes");
+  if (!instances.is_null() && !instances.is_object())
+    return fail(name + ".EXT_mesh_gpu_instancing", "attributes is not an object");
   constexpr std::pair<const char*, size_t> vectors[] = {
       {"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}};
   for (const auto& [key, size] : vectors) {
@@ -163,6 +173,15 @@ Result<void> check_material(const Json&, const Json& material, const std::string
   if (const Json& mode = member(material, "alphaMode"); !mode.is_null() && !mode.is_string())
     return fail(name, "alphaMode is not a text");
   return {};
+}
+
+Result<void> check_scene(const Json&, const Json& scene, const std::string& name, Report&) {
+  return check_array(scene, "nodes", name);
+}
+
+Result<void> check_animation(const Json&, const Json& animation, const std::string& name, Report&) {
+  LW_CHECK(check_array(animation, "samplers", name));
+  return check_array(animation, "channels", name);
 }
 
 Result<void> check_each(const Json& json, const char* array, Checker check, Report& report) {
@@ -243,6 +262,8 @@ Result<void> check_document(const Json& json, Report& report) {
   LW_CHECK(check_each(json, "meshes", check_mesh, report));
   LW_CHECK(check_each(json, "materials", check_material, report));
   LW_CHECK(check_each(json, "nodes", check_node, report));
+  LW_CHECK(check_each(json, "scenes", check_scene, report));
+  LW_CHECK(check_each(json, "animations", check_animation, report));
   return check_forest(json);
 }
 
