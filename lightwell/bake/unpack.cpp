@@ -166,15 +166,19 @@ Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level,
   return document;
 }
 
-Result<LightGrid> unpack_light(const PackReader& pack, size_t stream) {
+Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level) {
   const StreamEntry& entry = pack.directory().streams[stream];
   LW_TRY(decoder, LightDecoder::open(entry.parameters));
-  for (uint32_t block = 0; block < entry.blocks; block++) {
+  const double wanted = static_cast<double>(level.share) * static_cast<double>(decoder.grid().shape.count());
+  for (uint32_t block = 0; block < entry.blocks && static_cast<double>(decoder.received()) < wanted; block++) {
     LW_TRY(payload, pack.block(stream, block));
     LW_CHECK(decoder.append(payload));
   }
-  if (!decoder.complete()) return fail("stream " + std::to_string(stream), "the light grid is not complete");
-  return decoder.grid();
+  if (level.share >= 1 && !decoder.complete())
+    return fail("stream " + std::to_string(stream), "the light grid is not complete");
+  LightGrid grid = decoder.grid();
+  push_pull(grid, decoder.known(), level.fill);
+  return grid;
 }
 
 Result<size_t> find_light_stream(const PackReader& pack) {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "lightwell/gltf/document.h"
-#include "lightwell/light/grid.h"
+#include "lightwell/light/push_pull.h"
 #include "lightwell/pack/reader.h"
 
 namespace lightwell {
@@ -34,8 +34,14 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
 /// The glTF of a pack at a level, without the LIGHTWELL_ extensions: the opening with refined meshes and whole images.
 Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report);
 
-/// The light grid of a light stream, complete.
-Result<LightGrid> unpack_light(const PackReader& pack, size_t stream);
+/// How much of a light grid is wanted: the first bundles that bring at least `share` of its nodes, the others filled.
+struct LightLevel {
+  float share = 1;
+  Fill fill = Fill::push_pull;
+};
+
+/// The light grid of a light stream at a level.
+Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level);
 
 /// The first light stream of a pack; fails when there is none.
 Result<size_t> find_light_stream(const PackReader& pack);

@@ -31,8 +31,8 @@ void add_grid_options(CLI::App& command, LightBakeOptions& options) {
 }
 
 Result<LightGrid> light_of(const std::string& path, const TraceScene& scene, const LightBakeOptions& options,
-                           Progress& progress) {
-  if (is_pack(path)) return open_light(path);
+                           Progress& progress, const LightLevel& level) {
+  if (is_pack(path)) return open_light(path, level);
   LightBakeStatistics statistics;
   return bake_light(scene, options, progress, statistics);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lightwell/bake/light_bake.h"
+#include "lightwell/bake/unpack.h"
 #include "lightwell/cli/command.h"
 
 namespace lightwell {
@@ -9,8 +10,8 @@ namespace lightwell {
 /// --grid and --photons of the commands that bake a light grid; nodes outside 2 to 256 are bad usage.
 void add_grid_options(CLI::App& command, LightBakeOptions& options);
 
-/// The light grid that `path` stands for: a pack's own, or one baked from the scene with these options.
+/// The light grid that `path` stands for: a pack's own at a level, or one baked from the scene with these options.
 Result<LightGrid> light_of(const std::string& path, const TraceScene& scene, const LightBakeOptions& options,
-                           Progress& progress);
+                           Progress& progress, const LightLevel& level = {});
 
 }  // namespace lightwell

@@ -11,9 +11,9 @@
 namespace lightwell {
 namespace {
 
-Result<Scene> scene_of_pack(const std::string& path, Report& report) {
+Result<Scene> scene_of_pack(const std::string& path, const MeshLevel& level, Report& report) {
   LW_TRY(pack, PackReader::open_file(path));
-  LW_TRY(document, unpack_document(pack, MeshLevel{}, report));
+  LW_TRY(document, unpack_document(pack, level, report));
   return scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report);
 }
 
@@ -29,8 +29,8 @@ void note_sky(Scene& scene, const Vec3f& radiance) {
 bool is_pack(const std::string& path) { return PackReader::open_file(path).has_value(); }
 
 Result<Scene> open_scene(const std::string& path, const ImportOptions& options, const std::string& environment,
-                         Report& report) {
-  auto scene = is_pack(path) ? scene_of_pack(path, report) : load_scene(path, options, report);
+                         Report& report, const MeshLevel& level) {
+  auto scene = is_pack(path) ? scene_of_pack(path, level, report) : load_scene(path, options, report);
   if (!scene) return fail(in_file(scene.error(), path));
   if (!environment.empty()) {
     LW_TRY(surroundings, read_environment(environment));
@@ -49,11 +49,11 @@ Result<Camera> choose_camera(const Scene& scene, const std::string& choice) {
   return fail("camera " + choice, "is not in the scene, which has " + std::to_string(scene.cameras.size()));
 }
 
-Result<LightGrid> open_light(const std::string& path) {
+Result<LightGrid> open_light(const std::string& path, const LightLevel& level) {
   auto grid = [&]() -> Result<LightGrid> {
     LW_TRY(pack, PackReader::open_file(path));
     LW_TRY(stream, find_light_stream(pack));
-    return unpack_light(pack, stream);
+    return unpack_light(pack, stream, level);
   }();
   if (!grid) return fail(in_file(grid.error(), path));
   return grid;

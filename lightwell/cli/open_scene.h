@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/light/grid.h"
+#include "lightwell/bake/unpack.h"
 #include "lightwell/scene/scene.h"
 
 namespace lightwell {
@@ -17,7 +17,7 @@ Result<Scene> open_scene(const std::string& path, const ImportOptions& options, 
 /// The camera of a scene by its name or number; an empty choice is the first one, or an overview where there is none.
 Result<Camera> choose_camera(const Scene& scene, const std::string& choice);
 
-/// The light grid of a pack.
-Result<LightGrid> open_light(const std::string& path);
+/// The light grid of a pack at a level.
+Result<LightGrid> open_light(const std::string& path, const LightLevel& level);
 
 }  // namespace lightwell

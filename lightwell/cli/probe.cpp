@@ -22,9 +22,9 @@ struct Options {
 // unless it is left out. A pack's grid holds what it holds.
 std::vector<uint8_t> contained_in_grid(const Options& options, const TraceScene& scene) {
   if (is_pack(options.scene)) return plan_lamps(scene).contained;
-  std::vector<uint8_t> contained(scene.lights().luminaires().size(), 0);
-  const int environment = scene.lights().environment_luminaire();
-  if (environment >= 0 && !options.without_environment) contained[static_cast<size_t>(environment)] = 1;
+  std::vector<uint8_t> contained;
+  for (const Luminaire& luminaire : scene.lights().luminaires())
+    contained.push_back(luminaire.kind == Luminaire::Kind::environment && !options.without_environment);
   return contained;
 }
 

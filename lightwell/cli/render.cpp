@@ -19,6 +19,8 @@ struct Options {
   ImportOptions import;
   LightBakeOptions light;
   RenderOptions render;
+  MeshLevel mesh_level;
+  LightLevel light_level;
 };
 
 struct Figures {
@@ -42,7 +44,7 @@ void set_size(const Options& options, const Camera& camera, RenderOptions& rende
 Result<Figures> run(const Options& options, Progress& progress, Report& report) {
   Stopwatch watch;
   Figures figures;
-  LW_TRY(scene, open_scene(options.scene, options.import, options.environment, report));
+  LW_TRY(scene, open_scene(options.scene, options.import, options.environment, report, options.mesh_level));
   LW_TRY(traced, TraceScene::build(scene));
   LW_TRY(camera, choose_camera(scene, options.camera));
 
@@ -56,7 +58,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
     LightBakeOptions light = options.light;
     light.seed = options.import.seed;
     light.contained = lamps.contained;
-    LW_TRY(found, light_of(options.scene, *traced, light, progress));
+    LW_TRY(found, light_of(options.scene, *traced, light, progress, options.light_level));
     grid = std::move(found);
     render_options.grid = &grid;
     render_options.contained = lamps.contained;
@@ -91,6 +93,8 @@ const std::map<std::string, Integrator> integrators = {
     {"path", Integrator::path}, {"direct", Integrator::direct}, {"ivg", Integrator::ivg}};
 const std::map<std::string, LightPart> parts = {
     {"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}};
+const std::map<std::string, Fill> fills = {
+    {"push-pull", Fill::push_pull}, {"push-pull-smooth", Fill::push_pull_smooth}, {"none", Fill::none}};
 const std::map<std::string, ToneCurve> tones = {{"neutral", ToneCurve::neutral}, {"none", ToneCurve::none}};
 
 }  // namespace
@@ -126,6 +130,17 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
   command->add_option("--tone", options->display.tone, "Tone curve of a PNG")
       ->transform(CLI::CheckedTransformer(tones))
       ->default_str("neutral");
+  command->add_option("--level", options->mesh_level.share, "Of a pack: share of the final faces")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--light-level", options->light_level.share, "Of a pack: share of the light grid's nodes")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--fill", options->light_level.fill,
+                   "How the other nodes are filled: push-pull, push-pull-smooth or none")
+      ->transform(CLI::CheckedTransformer(fills))
+      ->default_str("push-pull");
   command->add_option("--environment", options->environment, "Light from all around: R,G,B, or a Radiance .hdr file");
   add_grid_options(*command, options->light);
   add_import_options(*command, options->import);

@@ -130,7 +130,7 @@ TEST(MakePack, GivesCoarserLevelsOnDemand) {
 TEST(MakePack, KeepsTheLight) {
   const Packed packed = pack(room());
   const PackReader reader = reader_of(packed.file);
-  auto grid = unpack_light(reader, find_light_stream(reader).value());
+  auto grid = unpack_light(reader, find_light_stream(reader).value(), {});
   ASSERT_TRUE(grid);
   const LightGrid wanted = some_light(packed.scene.bounds());
   const Vec3f center = packed.scene.bounds().center(), up{{0, 1, 0}};

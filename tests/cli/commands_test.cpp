@@ -191,6 +191,20 @@ TEST_F(Commands, RenderProbeAndDiffAgree) {
   EXPECT_GT(points["points"][0]["stderr"], 0.0);
 }
 
+// In a furnace of albedo rho and emission Le every point receives pi Le rho / (1 - rho) of bounced light: pi here.
+TEST_F(Commands, ProbeMeasuresTheFurnace) {
+  write("points.csv", "x,y,z,nx,ny,nz\n0,1,0,0,1,0\n0.2,0.9,0.3,1,0,0\n-0.3,1.1,0.1,0.6,0,-0.8\n");
+  for (const std::string integrator : {"path --spp 400", "ivg --photons 2M --grid 8"}) {
+    const Outcome outcome =
+        run("probe furnace --json --quiet --points " + path("points.csv") + " --integrator " + integrator);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    // Four standard errors of 400 paths of relative deviation 0.8; the grid's noise is below that.
+    for (const json& point : json::parse(outcome.out)["points"])
+      for (const json& channel : point["rgb"])
+        EXPECT_NEAR(channel.get<double>(), 3.14159, 0.16 * 3.14159) << integrator;
+  }
+}
+
 TEST_F(Commands, AnInterruptedBakeLeavesNothing) {
   const std::string script = "timeout -s INT 1 " LIGHTWELL_PROGRAM " bake box-small -o " + path("cut.glb") +
                              " --photons 1G --quiet 2>" + path("stderr");
