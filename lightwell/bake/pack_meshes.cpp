@@ -71,8 +71,10 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   LW_CHECK(outcome);
 
   std::vector<StreamedMesh> streamed;
+  // A mesh of degenerate faces only has no coarsest level: it stays in the opening as it is.
   for (size_t i = 0; i < encoded.size(); i++)
-    if (encoded[i] && !encoded[i]->blocks.empty()) streamed.push_back({refined[i], std::move(*encoded[i])});
+    if (encoded[i] && !encoded[i]->blocks.empty() && !encoded[i]->base.faces.empty())
+      streamed.push_back({refined[i], std::move(*encoded[i])});
   auto seen_error = [&](const StreamedMesh& mesh) {
     return mesh.encoded.layout.base_error * scales[static_cast<size_t>(mesh.primitive)];
   };

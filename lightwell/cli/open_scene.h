@@ -9,10 +9,10 @@ namespace lightwell {
 /// True when the file is a pack; false also when it cannot be read.
 bool is_pack(const std::string& path);
 
-/// The scene of a file, a pack (its finest level) or a built-in scene, under `environment` unless that is empty:
-/// "R,G,B" or the name of a Radiance .hdr file.
+/// The scene of a file, a pack (at a level) or a built-in scene, under `environment` unless that is empty: "R,G,B" or
+/// the name of a Radiance .hdr file.
 Result<Scene> open_scene(const std::string& path, const ImportOptions& options, const std::string& environment,
-                         Report& report);
+                         Report& report, const MeshLevel& level = {});
 
 /// The camera of a scene by its name or number; an empty choice is the first one, or an overview where there is none.
 Result<Camera> choose_camera(const Scene& scene, const std::string& choice);
