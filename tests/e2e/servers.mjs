@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:net';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
+import { WEB } from './dependencies.mjs';
 import { BIN } from './packs.mjs';
-
-/** The command that serves packs with the page. */
-export const SERVE = [`${BIN}/lightwell`, 'serve'];
-
-/** Whether `lightwell serve` has been built. */
-export const hasServe = () => existsSync(SERVE[0]);
 
 /** Starts `lightwell serve` for a pack or a folder; `port` 0 takes any. Resolves when it has said where it listens. */
 export async function startServe(path, port = 0) {
-  const child = spawn(SERVE[0], [...SERVE.slice(1), path, '--port', String(port), '--json'], {
+  const child = spawn(`${BIN}/lightwell`, ['serve', path, '--port', String(port), '--page', `${WEB}dist`], {
     stdio: ['ignore', 'pipe', 'inherit'],
   });
   const ended = new Promise((resolve) => child.on('exit', resolve));
@@ -24,7 +19,7 @@ export async function startServe(path, port = 0) {
   });
   const { url } = JSON.parse(line);
   return {
-    url: url.endsWith('/') ? url : `${url}/`,
+    url,
     stop(signal = 'SIGTERM') {
       child.kill(signal);
       return ended;

@@ -15,15 +15,14 @@ const TYPES = {
 
 /**
  * A plain web server for tests. `routes` maps a path, or the beginning of one that ends in a slash, to a file or folder, or to
- * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly;
- * `port` 0 takes any.
+ * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly.
  */
-export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], port = 0 } = {}) {
+export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'] } = {}) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
     void answer(routes, { ranges, wasmType }, path, request, response);
   });
-  await new Promise((resolve) => server.listen(port, '127.0.0.1', resolve));
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
     stop: () => {

@@ -5,7 +5,7 @@ import { after, before, test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
 import { WEB } from './dependencies.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
-import { hasServe, startNginx, startServe } from './servers.mjs';
+import { startNginx, startServe } from './servers.mjs';
 import { startStaticServer } from './static_server.mjs';
 import { complete, loaded, notice, pauseAfter, paused, progress, resume } from './view.mjs';
 
@@ -45,7 +45,7 @@ async function assertComplete(page, file) {
   return faces.total;
 }
 
-test('the page streams a pack to completion from lightwell serve', { skip: !hasServe() && 'no lightwell serve' }, async (t) => {
+test('the page streams a pack to completion from lightwell serve', async (t) => {
   const server = await startServe(SMALL);
   t.after(() => server.stop());
   const { page, errors, close } = await openPage(browser);
@@ -92,19 +92,18 @@ test('each strategy ends in the same state', async (t) => {
 });
 
 test('a server that dies is waited for, what has come is kept', async (t) => {
-  const routes = pageRoutes(['large.lw.glb']);
-  let server = await startStaticServer(routes);
+  let server = await startServe(LARGE);
   t.after(() => server.stop());
   const { page, errors, close } = await openPage(browser, { init: pauseAfter(100_000) });
   t.after(close);
   await page.goto(server.url);
   await paused(page);
   const { faces } = await progress(page);
-  await server.stop();
+  await server.stop('SIGKILL');
   await resume(page);
   await notice(page, 'does not answer');
   assert.ok((await progress(page)).faces.done >= faces.done);
-  server = await startStaticServer(routes, { port: Number(new URL(server.url).port) });
+  server = await startServe(LARGE, Number(new URL(server.url).port));
   await assertComplete(page, LARGE);
   await notice(page, '');
   assert.deepEqual(errors, []);

@@ -8,7 +8,6 @@ export function bindSettings(view: LightwellView): void {
   bindExposure(view);
   const wireframe = document.querySelector<HTMLInputElement>('#wireframe')!;
   wireframe.addEventListener('change', () => view.toggleAttribute('wireframe', wireframe.checked));
-  document.querySelector<HTMLDetailsElement>('#settings')!.open = matchMedia('(min-width: 521px)').matches;
 }
 
 function bindStrategy(view: LightwellView): void {
