@@ -29,7 +29,7 @@ Result<uint64_t> Download::receive(Cursor& cursor, Bytes bytes) {
       LW_TRY(head, receive_head(cursor, bytes));
       gained += head;
     } else if (cursor.position < directory_->opening_length + witness_.size()) {
-      gained += compare_witness(cursor, bytes);
+      gained += read_witness(cursor, bytes);
     } else if (const std::optional<size_t> stream = stream_at(cursor.position)) {
       LW_TRY(extent, receive_extent(*stream, cursor, bytes));
       gained += extent;
@@ -104,16 +104,25 @@ std::pair<uint64_t, uint64_t> Download::wanted_witness() const {
   return {directory_->opening_length, directory_->opening_length + witness_.size()};
 }
 
-/// Compares a second copy of the directory's beginning with the first.
-uint64_t Download::compare_witness(Cursor& cursor, Bytes& bytes) {
+/// Reads the directory's beginning once more. Another one that comes twice is no damage on the way: the file was
+/// replaced.
+uint64_t Download::read_witness(Cursor& cursor, Bytes& bytes) {
   const uint64_t begin = directory_->opening_length;
   if (cursor.position < begin) cut(cursor, bytes, begin - cursor.position);
   if (bytes.empty()) return 0;
   const size_t offset = static_cast<size_t>(cursor.position - begin);
   const Bytes front = cut(cursor, bytes, witness_.size() - offset);
-  if (!std::ranges::equal(front, Bytes(witness_).subspan(offset, front.size()))) replaced_ = true;
-  if (offset + front.size() == witness_.size()) suspicious_ = false;
-  return front.size();
+  if (offset == 0) read_again_.clear();
+  if (offset != read_again_.size()) return 0;
+  read_again_.insert(read_again_.end(), front.begin(), front.end());
+  if (read_again_.size() < witness_.size()) return 0;
+  if (read_again_ == witness_) {
+    suspicious_ = false;
+  } else {
+    replaced_ = read_again_ == another_;
+    another_ = std::exchange(read_again_, {});
+  }
+  return witness_.size();
 }
 
 std::optional<size_t> Download::stream_at(uint64_t position) const {

@@ -90,7 +90,7 @@ class Download {
 
   Result<uint64_t> receive_head(Cursor& cursor, Bytes& bytes);
   Result<void> open();
-  uint64_t compare_witness(Cursor& cursor, Bytes& bytes);
+  uint64_t read_witness(Cursor& cursor, Bytes& bytes);
   Result<uint64_t> receive_extent(size_t stream, Cursor& cursor, Bytes& bytes);
   Result<uint64_t> accept(size_t stream, uint32_t index, Bytes bytes);
   static void skip_present(Stream& stream);
@@ -102,7 +102,9 @@ class Download {
   bool head_failed_ = false;
   std::optional<Directory> directory_;
   std::vector<uint8_t> opening_;
-  std::vector<uint8_t> witness_;  ///< the directory's first fields, its id among them
+  std::vector<uint8_t> witness_;     ///< the directory's first fields, its id among them
+  std::vector<uint8_t> read_again_;  ///< the same, as far as they have been read again
+  std::vector<uint8_t> another_;     ///< what was read instead the last time
   std::vector<Stream> streams_;
   std::map<std::pair<size_t, uint32_t>, int> strikes_;
   uint64_t backlog_ = 0;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 
+#include "lightwell/base/assert.h"
 #include "lightwell/light/atlas.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
@@ -52,14 +53,16 @@ struct Apply {
       return "a range beyond its buffer";
     if (update.offset % 4 != 0 || update.data.size() % 4 != 0) return "a range of odd length";
     std::ranges::copy(update.data, buffer.begin() + update.offset);
-    return check_faces(mesh);
+    if (update.buffer != RangeUpdate::indices) return {};
+    return check_corners(mesh, update.offset / 4, (update.offset + update.data.size()) / 4);
   }
   std::string operator()(const DrawUpdate& update) {
     ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
     if (update.faces < mesh.faces || update.vertices < mesh.vertices) return "a mesh has become coarser";
+    const size_t drawn = mesh.faces;
     mesh.vertices = update.vertices;
     mesh.faces = update.faces;
-    return check_faces(mesh);
+    return check_corners(mesh, drawn * 3, size_t(mesh.faces) * 3);
   }
   std::string operator()(const LightUpdate& update) {
     if (update.atlas.size() != size_t(update.width) * update.height * update.depth * 8)
@@ -83,9 +86,9 @@ struct Apply {
 
   /// At every moment the faces that are drawn refer to vertices that have come: none has all its coordinates zero in
   /// the sample.
-  static std::string check_faces(const ReceivedScene::ReceivedMesh& mesh) {
+  static std::string check_corners(const ReceivedScene::ReceivedMesh& mesh, size_t begin, size_t end) {
     const std::vector<uint8_t>& positions = mesh.buffers.front();
-    for (size_t corner = 0; corner < size_t(mesh.faces) * 3; corner++) {
+    for (size_t corner = begin; corner < std::min(end, size_t(mesh.faces) * 3); corner++) {
       uint32_t vertex;
       std::memcpy(&vertex, mesh.buffers.back().data() + corner * 4, 4);
       if (size_t(vertex) * 12 >= positions.size()) return "a face refers to no vertex";
@@ -97,6 +100,14 @@ struct Apply {
   }
 };
 
+template <typename Decoder>
+void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream) {
+  for (uint32_t block = 0; block < reader.directory().streams[stream].blocks; block++) {
+    const auto appended = decoder.append(reader.block(stream, block).value());
+    LW_ASSERT(appended);
+  }
+}
+
 ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t stream) {
   const StreamEntry& entry = reader.directory().streams[stream];
   ByteReader parameters(entry.parameters);
@@ -104,7 +115,7 @@ ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t strea
   const BasePlaces places = BasePlaces::read(parameters).value();
   const BaseArrays base = BaseArrays::read(layout, places, glb_chunks(reader.opening()).bin).value();
   MeshDecoder decoder = std::move(MeshDecoder::open(layout, base.view(), entry.length).value());
-  for (uint32_t block = 0; block < entry.blocks; block++) decoder.append(reader.block(stream, block).value()).value();
+  append_all(decoder, reader, stream);
   ReceivedScene::ReceivedMesh mesh;
   add_buffer(mesh, decoder.positions(), 12);
   add_buffer(mesh, decoder.normals(), 8);
@@ -120,7 +131,7 @@ ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t strea
 std::vector<uint8_t> decode_light(const PackReader& reader, uint32_t stream) {
   const StreamEntry& entry = reader.directory().streams[stream];
   LightDecoder decoder = LightDecoder::open(entry.parameters).value();
-  for (uint32_t block = 0; block < entry.blocks; block++) decoder.append(reader.block(stream, block).value()).value();
+  append_all(decoder, reader, stream);
   const LightLayout& layout = decoder.layout();
   LightAtlas atlas(layout.shape, AtlasForm::patched, layout.normal_offset, layout.scale);
   atlas.update(decoder.grid());
