@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <map>
 
 // Boost 1.74's asio uses std::exchange without including <utility>.
@@ -106,7 +107,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void read_head() {
     parser_.emplace();
-    parser_->body_limit(boost::none);
+    parser_->body_limit(std::numeric_limits<uint64_t>::max());
     http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
       if (error) return self->failed_before_answer();
       self->on_head();

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <thread>
+
+#include "lightwell/transport/fetch.h"
+#include "tests/client/received_scene.h"
+#include "tests/client/sample_pack.h"
+
+namespace lightwell {
+namespace {
+
+const std::vector<uint8_t>& sample() {
+  static const std::vector<uint8_t> pack = sample_pack(sample_scene(8000, 12));
+  return pack;
+}
+
+/// Fetches over a transport and compares with the pack's scene.
+FetchOutcome expect_exact(Transport& transport) {
+  Client client({});
+  ReceivedScene scene;
+  const auto outcome = fetch(client, transport, [&](const Update& update) { EXPECT_EQ(scene.apply(update), ""); });
+  EXPECT_TRUE(outcome) << outcome.error().message();
+  EXPECT_TRUE(scene == decode_directly(sample()));
+  return outcome.value_or(FetchOutcome{});
+}
+
+TEST(Fetch, FromMemory) {
+  const auto transport = memory_transport(sample());
+  const FetchOutcome outcome = expect_exact(*transport);
+  EXPECT_EQ(outcome.bytes, sample().size());
+  EXPECT_EQ(outcome.timeline.back().bytes, sample().size());
+  EXPECT_LE(outcome.first_picture.bytes, 65536u) << "the first picture needs one request";
+  EXPECT_GT(outcome.first_picture.faces, 0u);
+  EXPECT_GE(outcome.first_picture.nodes, 8u);
+}
+
+TEST(Fetch, ALineTakesTheTimeOfItsRateAndLatency) {
+  const auto transport = shaped_transport(memory_transport(sample()), {.bits_per_second = 8e5, .latency = 0.2});
+  const FetchOutcome outcome = expect_exact(*transport);
+  const double transfer = static_cast<double>(sample().size()) * 8 / 8e5;
+  EXPECT_GE(outcome.seconds, transfer + 0.2);
+  // The request for the opening and the one that follows it wait for their answers; all others overlap.
+  EXPECT_LE(outcome.seconds, transfer + 4 * 0.2 + 0.5);
+  for (size_t i = 1; i < outcome.timeline.size(); i++) {
+    EXPECT_GE(outcome.timeline[i].seconds, outcome.timeline[i - 1].seconds);
+    EXPECT_GE(outcome.timeline[i].bytes, outcome.timeline[i - 1].bytes);
+    EXPECT_GE(outcome.timeline[i].faces, outcome.timeline[i - 1].faces);
+  }
+}
+
+TEST(Fetch, FailuresAreErrors) {
+  std::vector<uint8_t> damaged = sample();
+  damaged[30] ^= 1;
+  const auto transport = memory_transport(damaged);
+  Client client({});
+  EXPECT_FALSE(fetch(client, *transport, [](const Update&) {}));
+  Client other({});
+  const auto again = memory_transport(sample());
+  EXPECT_FALSE(fetch(
+      other, *again, [](const Update&) {}, [] { return true; }));
+}
+
+/// A file server of one thread and a connection at a time, which closes each connection after a few answers.
+class TinyServer {
+ public:
+  explicit TinyServer(Bytes file) : file_(file), socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t length = sizeof address;
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(::listen(socket_, 16), 0);
+    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &length);
+    port_ = ntohs(address.sin_port);
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~TinyServer() {
+    ::shutdown(socket_, SHUT_RDWR);
+    thread_.join();
+    ::close(socket_);
+  }
+
+  std::string url() const { return "http://127.0.0.1:" + std::to_string(port_) + "/pack.glb"; }
+
+ private:
+  void serve() {
+    for (int connection; (connection = ::accept(socket_, nullptr, nullptr)) >= 0; ::close(connection)) {
+      const timeval patience{0, 50000};  // an idle connection must not keep the others waiting
+      ::setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+      for (int answers = 0; answers < 3 && answer(connection); answers++) {
+      }
+    }
+  }
+
+  bool answer(int connection) {
+    std::string request;
+    char byte;
+    while (!request.ends_with("\r\n\r\n")) {
+      if (::recv(connection, &byte, 1, 0) != 1) return false;
+      request += byte;
+    }
+    unsigned long first = 0, last = 0;
+    const size_t range = request.find("Range: bytes=");
+    if (range == std::string::npos || std::sscanf(request.c_str() + range, "Range: bytes=%lu-%lu", &first, &last) != 2)
+      return false;
+    last = std::min(last, file_.size() - 1);
+    const std::string head = "HTTP/1.1 206 Partial Content\r\nETag: \"x\"\r\nContent-Range: bytes " +
+                             std::to_string(first) + "-" + std::to_string(last) + "/" + std::to_string(file_.size()) +
+                             "\r\nContent-Length: " + std::to_string(last + 1 - first) + "\r\n\r\n";
+    return send_all(connection, as_bytes(head)) && send_all(connection, file_.subspan(first, last + 1 - first));
+  }
+
+  static bool send_all(int connection, Bytes bytes) {
+    while (!bytes.empty()) {
+      const ssize_t sent = ::send(connection, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (sent <= 0) return false;
+      bytes = bytes.subspan(static_cast<size_t>(sent));
+    }
+    return true;
+  }
+
+  Bytes file_;
+  int socket_;
+  uint16_t port_ = 0;
+  std::thread thread_;
+};
+
+TEST(HttpTransport, StreamsFromAServerThatClosesItsConnections) {
+  TinyServer server(sample());
+  const auto transport = http_transport(server.url());
+  ASSERT_TRUE(transport) << transport.error().message();
+  expect_exact(**transport);
+}
+
+TEST(HttpTransport, NobodyThereIsAFailedRequest) {
+  const auto transport = http_transport("http://127.0.0.1:1/pack.glb");
+  ASSERT_TRUE(transport);
+  (*transport)->ask(7, 0, 99);
+  const auto event = (*transport)->wait(5);
+  ASSERT_TRUE(event);
+  EXPECT_EQ(event->kind, TransportEvent::Kind::failed);
+  EXPECT_EQ(event->request, 7u);
+}
+
+TEST(HttpTransport, WrongUrlsAreErrors) {
+  for (const char* url :
+       {"", "pack.glb", "https://localhost/pack.glb", "http://", "http:///x", "http://localhost:/x", "http://a b/"})
+    EXPECT_FALSE(http_transport(url)) << url;
+}
+
+}  // namespace
+}  // namespace lightwell
