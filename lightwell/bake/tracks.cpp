@@ -104,14 +104,12 @@ void TrackSums::deposit(const Vec3f& origin, const Vec3f& direction, float lengt
   std::array<float, lanes> per_length{};
   for (size_t i = 0; i < used_lanes; i++) per_length[i] = moments[i / 3] * weight.e[i % 3] * (resolution / unit_);
   for (BoxWalk walk(shape_, origin, direction, length); !walk.empty();) {
-    const size_t node = walk.node();
-    deposit_in(node, per_length, walk.advance());
+    int64_t* sums = &sums_[walk.node() * lanes];
+    const float length_in_box = walk.advance();
+    __builtin_prefetch(&sums_[walk.node() * lanes], 1);
+    __builtin_prefetch(&sums_[walk.node() * lanes + lanes / 2], 1);
+    for (size_t i = 0; i < lanes; i++) sums[i] += static_cast<int32_t>(per_length[i] * length_in_box);
   }
-}
-
-void TrackSums::deposit_in(size_t node, const std::array<float, lanes>& per_length, float length) {
-  int64_t* sums = &sums_[node * lanes];
-  for (size_t i = 0; i < lanes; i++) sums[i] += static_cast<int32_t>(per_length[i] * length);
 }
 
 TrackSums& TrackSums::operator+=(const TrackSums& other) {

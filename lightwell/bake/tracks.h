@@ -34,8 +34,6 @@ class TrackSums {
   static constexpr size_t used_lanes = 27;  // nine moments of three colours
   static constexpr size_t lanes = 28;       // a multiple of four, for the compiler's vectors
 
-  void deposit_in(size_t node, const std::array<float, lanes>& per_length, float length);
-
   GridShape shape_;
   float unit_ = 1;  // of lengths: the longest side of a cell
   std::vector<int64_t> sums_;
