@@ -6,7 +6,9 @@ find_program(LIGHTWELL_WASM_CXX clang++-19 REQUIRED)
 
 set(wasm_folder ${CMAKE_BINARY_DIR}/wasm)
 set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
-set(wasm_flags --target=wasm32-wasi -std=c++20 -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
+# For size: 49.9 KB in brotli. With -O2 for base, mesh and light it is 56.7 KB, and a pack of 400 k triangles is decoded in 0.43
+# instead of 0.54 s of CPU time, in a worker, while its bytes take longer to come.
+set(wasm_flags --target=wasm32-wasi -std=c++20 -Oz -flto -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
   -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
   -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
 if(LIGHTWELL_WERROR)
@@ -22,21 +24,15 @@ lightwell_client_sources(wasm_sources base mesh light texture pack client)
 set(wasm_objects "")
 foreach(source ${wasm_sources})
   file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/lightwell ${source})
-  # Small where it runs once a request, fast where it runs once a vertex or node.
-  if(name MATCHES "^(base|mesh|light)/")
-    set(optimise -O2)
-  else()
-    set(optimise -Oz)
-  endif()
   string(REPLACE "/" "_" name ${name})
   set(object ${wasm_folder}/${name}.o)
   add_custom_command(OUTPUT ${object}
-    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} ${optimise} -MD -MF ${object}.d -c ${source} -o ${object}
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} -MD -MF ${object}.d -c ${source} -o ${object}
     DEPENDS ${source} DEPFILE ${object}.d COMMENT "Building WebAssembly object ${name}.o" VERBATIM)
   list(APPEND wasm_objects ${object})
 endforeach()
 add_custom_command(OUTPUT ${wasm_module}
-  COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -O2 -Wl,--gc-sections -Wl,--strip-all
+  COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Oz -flto -Wl,--gc-sections -Wl,--strip-all
           ${wasm_objects} -o ${wasm_module}
   DEPENDS ${wasm_objects} COMMENT "Linking lib/lightwell.wasm" VERBATIM)
 add_custom_target(lightwell_client_wasm ALL DEPENDS ${wasm_module})
