@@ -8,6 +8,7 @@ import { build } from 'esbuild';
 import { glslPlugin } from './glsl_plugin.mjs';
 
 const common = {
+  absWorkingDir: import.meta.dirname,
   bundle: true,
   format: 'esm',
   target: 'es2022',

@@ -10,6 +10,7 @@ import { glslPlugin } from './glsl_plugin.mjs';
 process.chdir(import.meta.dirname);
 const compressed = async (file) => brotliCompressSync(await readFile(file)).length;
 const own = await build({
+  absWorkingDir: import.meta.dirname,
   entryPoints: ['src/page/main.ts'],
   bundle: true,
   minify: true,

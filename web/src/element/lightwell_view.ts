@@ -122,7 +122,12 @@ export class LightwellView extends HTMLElement {
     else if (this.#orbit !== null) this.#orbit.view = view;
   }
 
-  /** Draws a frame, shadows included. */
+  /** Draws a frame now, in the caller's turn. */
+  draw(): void {
+    this.#stage?.draw(performance.now());
+  }
+
+  /** Asks for a frame with new shadows: call it after a change of the scene. */
   invalidate(): void {
     this.#stage?.invalidateShadows();
   }

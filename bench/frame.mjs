@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// frame.mjs PACK: how long a frame takes at 480 x 270 with the light grid and without (20 alternating pairs, the median of their
+// ratio), and while PACK streams in (95th percentile). Frames are timed to the end of a read back, in Chromium on llvmpipe.
+import { launch, openPage } from '../tests/e2e/browser.mjs';
+import { WEB } from '../tests/e2e/dependencies.mjs';
+import { startStaticServer } from '../tests/e2e/static_server.mjs';
+import { complete } from '../tests/e2e/view.mjs';
+
+const PAIRS = 20;
+
+/** Runs in the page before its scripts: times each of its animation frames that draws. */
+const TIME_FRAMES = `{
+  globalThis.frameTimes = [];
+  const { drawElements } = WebGL2RenderingContext.prototype;
+  let drew = null;
+  WebGL2RenderingContext.prototype.drawElements = function (...values) { drew = this; return drawElements.apply(this, values); };
+  const request = globalThis.requestAnimationFrame.bind(globalThis);
+  globalThis.requestAnimationFrame = (callback) => request((time) => {
+    drew = null;
+    const start = performance.now();
+    callback(time);
+    if (drew === null) return;
+    drew.readPixels(0, 0, 1, 1, drew.RGBA, drew.UNSIGNED_BYTE, new Uint8Array(4));
+    globalThis.frameTimes.push(performance.now() - start);
+  });
+}`;
+
+/** Runs in the page: milliseconds of each pair of frames, with the grid and without; a first pair compiles the shaders. */
+function timePairs(pairs) {
+  const view = document.querySelector('lightwell-view');
+  const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
+  const time = (light) => {
+    view.setAttribute('light', light);
+    view.draw();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    const start = performance.now();
+    view.draw();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    return performance.now() - start;
+  };
+  time('all');
+  time('direct');
+  return Array.from({ length: pairs }, () => [time('all'), time('direct')]);
+}
+
+const quantile = (values, share) => values.toSorted((a, b) => a - b)[Math.floor(share * (values.length - 1))];
+
+const pack = process.argv[2];
+if (pack === undefined) throw new Error('usage: node bench/frame.mjs PACK');
+const server = await startStaticServer({
+  '/': `${WEB}dist`,
+  '/pack.lw.glb': pack,
+  '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
+});
+const browser = await launch();
+try {
+  const { page } = await openPage(browser, { width: 480, height: 270, init: TIME_FRAMES });
+  await page.goto(server.url);
+  await complete(page);
+  const streaming = await page.evaluate(() => globalThis.frameTimes);
+  const pairs = await page.evaluate(timePairs, PAIRS);
+  const median = (values) => quantile(values, 0.5);
+  console.log(
+    JSON.stringify({
+      frame_with_grid_ms: median(pairs.map(([grid]) => grid)),
+      frame_without_grid_ms: median(pairs.map(([, without]) => without)),
+      ratio_median: median(pairs.map(([grid, without]) => grid / without)),
+      streaming_frames: streaming.length,
+      streaming_median_ms: median(streaming),
+      streaming_p95_ms: quantile(streaming, 0.95),
+    }),
+  );
+} finally {
+  await browser.close();
+  await server.stop();
+}

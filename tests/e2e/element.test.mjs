@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { WEB } from './dependencies.mjs';
+import { temporaryFolder, writeSamplePack } from './packs.mjs';
+import { startStaticServer } from './static_server.mjs';
+import { complete } from './view.mjs';
+
+const folder = temporaryFolder();
+writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
+let browser;
+let server;
+before(async () => {
+  browser = await launch();
+  server = await startStaticServer({
+    '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
+    '/pack.lw.glb': `${folder}/pack.lw.glb`,
+    '/': `${WEB}dist`,
+  });
+});
+after(async () => {
+  await browser.close();
+  await server.stop();
+});
+
+async function openView(t) {
+  const opened = await openPage(browser);
+  t.after(opened.close);
+  await opened.page.goto(server.url);
+  await complete(opened.page);
+  return opened;
+}
+
+/** Resolves after so many animation frames of the page. */
+const frames = (page, count) =>
+  page.evaluate(
+    (left) =>
+      new Promise((resolve) => {
+        const next = () => (left-- > 0 ? requestAnimationFrame(next) : resolve());
+        next();
+      }),
+    count,
+  );
+
+const picture = (page) => page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
+
+test('a still picture is not drawn again', async (t) => {
+  const { page } = await openView(t);
+  await page.waitForFunction(() => document.querySelector('lightwell-view').frameRate === 0);
+  await page.evaluate(() => {
+    globalThis.draws = 0;
+    const { drawElements } = WebGL2RenderingContext.prototype;
+    WebGL2RenderingContext.prototype.drawElements = function (...values) {
+      globalThis.draws++;
+      return drawElements.apply(this, values);
+    };
+  });
+  await frames(page, 10);
+  assert.equal(await page.evaluate(() => globalThis.draws), 0);
+});
+
+test('keys turn, move and zoom', async (t) => {
+  const { page, errors } = await openView(t);
+  const view = () => page.evaluate(() => document.querySelector('lightwell-view').view);
+  const start = await view();
+  await page.evaluate(() => document.querySelector('lightwell-view').shadowRoot.querySelector('canvas').focus());
+  for (const [key, changed] of [
+    ['ArrowLeft', (now) => now.theta !== start.theta],
+    ['Shift+ArrowUp', (now) => now.target.join() !== start.target.join()],
+    ['+', (now) => now.radius < start.radius],
+  ]) {
+    await page.keyboard.press(key);
+    await frames(page, 3);
+    assert.ok(changed(await view()), key);
+  }
+  await page.keyboard.press('Home');
+  await frames(page, 3);
+  assert.ok(Math.abs((await view()).radius - start.radius) < 1e-3);
+  assert.deepEqual(errors, []);
+});
+
+test('a lost GPU is made good', async (t) => {
+  const { page } = await openView(t);
+  const before = await picture(page);
+  await page.evaluate(async () => {
+    const canvas = document.querySelector('lightwell-view').shadowRoot.querySelector('canvas');
+    const extension = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+    const event = (name) => new Promise((resolve) => canvas.addEventListener(name, resolve, { once: true }));
+    const lost = event('webglcontextlost');
+    extension.loseContext();
+    await lost;
+    await new Promise((resolve) => setTimeout(resolve));
+    const restored = event('webglcontextrestored');
+    extension.restoreContext();
+    await restored;
+  });
+  await frames(page, 3);
+  assert.equal(await picture(page), before);
+});
+
+test('each light can be turned off', async (t) => {
+  const { page, errors } = await openView(t);
+  const pictures = new Set();
+  for (const light of ['all', 'direct', 'indirect', 'off']) {
+    await page.evaluate((value) => document.querySelector('lightwell-view').setAttribute('light', value), light);
+    pictures.add(await picture(page));
+  }
+  assert.ok(pictures.size >= 2);
+  assert.deepEqual(errors, []);
+});
