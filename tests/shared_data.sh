@@ -40,7 +40,7 @@ done < <(find $data/rooms $data/scans $data/objects $data/gltf $data/formats -ty
 
 echo "broken:"
 while read -r file; do
-  timeout 60 bash -c "ulimit -v 8000000; exec $program bake '$file' -o '$work/pack.glb' --photons 1k --grid 2 --environment 1,1,1 --json" \
+  timeout 60 bash -c "ulimit -v 8000000; exec $program bake '$file' -o '$work/pack.glb' --photons 1k --grid 2 --environment 1,1,1" \
     >/dev/null 2>"$work/errors"
   status=$?
   case $status in
