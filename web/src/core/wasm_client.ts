@@ -24,7 +24,7 @@ interface Exports {
 
 const ABI_VERSION = 1;
 /** How nodes of the light grid that have not come are filled: see lightwell/client/wasm.h. */
-const FILL_PUSH_PULL = 1;
+const FILL_PUSH_PULL = 0;
 const STRATEGIES: Strategy[] = ['interleave', 'geometry', 'light'];
 const SEMANTICS: Semantic[] = ['position', 'normal', 'texcoord_0', 'texcoord_1', 'color'];
 const COMPONENTS: Component[] = ['i8', 'u8', 'i16', 'u16', 'f32'];
