@@ -7,7 +7,7 @@ import { WasmClient } from './wasm_client.js';
 /** Decoding holds the thread no longer than this, in milliseconds. */
 const SLICE = 4;
 /** Updates that the page has not handed to the GPU yet: no more is taken from the client beyond this, in bytes. */
-const IN_FLIGHT = 1 << 20;
+const IN_FLIGHT = 4 << 20;
 /** An update of a mesh is cut into pieces of about this size, in bytes. */
 const PIECE = 64 << 10;
 /** Progress is told at most this often, in milliseconds. */

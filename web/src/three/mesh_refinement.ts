@@ -47,8 +47,6 @@ export class MeshRefinement implements Refinement {
   #batches: Batch[] = [];
   #faces = 0;
   #consumed = 0;
-  /** Bytes of indices that came while a whole batch was waiting: not consumed before that is taken up. */
-  #held = 0;
 
   /** `base` is what is drawn until the stream says otherwise; its bounds are replaced by those of the final mesh. */
   constructor(layout: MeshEvent, base: BufferGeometry, bounds: Box3) {
@@ -87,10 +85,15 @@ export class MeshRefinement implements Refinement {
     else this.#receiveVertices(event);
   }
 
+  /**
+   * A sweep over the indices, once begun, goes first: it ends in a finer picture. Vertices that come meanwhile wait, so that
+   * the next sweep, which costs the same for few new faces as for many, has many.
+   */
   advance(budget: UploadBudget): boolean {
-    this.#advanceVertices(budget);
-    if (this.#fresh.length > 0) return false;
-    if (!this.#index.sweeping && !this.#beginSweep()) return false;
+    if (!this.#index.sweeping) {
+      this.#advanceVertices(budget);
+      if (this.#fresh.length > 0 || !this.#beginSweep()) return false;
+    }
     if (!this.#index.advance(budget)) return false;
     this.geometry.setDrawRange(this.#index.start, 3 * this.#faces);
     return true;
@@ -117,10 +120,9 @@ export class MeshRefinement implements Refinement {
     this.#fresh.push({ attribute, begin, end: begin + event.data.length / BYTES_PER_ELEMENT });
   }
 
-  /** Batches of any size come whole, since they are consumed as they come; but only one waits for its turn. */
+  /** Consumed as they come, so that a batch of any size comes whole; vertices keep the sender from running ahead. */
   #receiveIndices(event: RangeEvent): void {
-    if (this.#wholeBatch) this.#held += event.data.length;
-    else this.#consumed += event.data.length;
+    this.#consumed += event.data.length;
     this.#openBatch().ranges.push(event);
   }
 
@@ -160,8 +162,6 @@ export class MeshRefinement implements Refinement {
         this.#index.write(offset / 4, new Uint32Array(data.buffer, data.byteOffset, data.length / 4));
       this.#batches.shift();
     }
-    this.#consumed += this.#held;
-    this.#held = 0;
     return true;
   }
 }
