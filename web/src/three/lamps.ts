@@ -24,7 +24,7 @@ const SHARED_UNITS = 3;
 /**
  * three.js lights for a pack's lamps, in the pack's space. A rectangle becomes a spot light with a soft edge at 85 degrees,
  * a sphere a point light, each with the irradiance that the lamp has on its axis at the middle of the scene: three.js has no
- * area light with a shadow (docs/decisions/003-lamps-in-three.md). The strongest cast shadows: at most four, and no more
+ * area light with a shadow (docs/decisions/006-lamps-in-three.md). The strongest cast shadows: at most four, and no more
  * than leave `materialMaps` texture units for the materials.
  */
 export function createLamps(definitions: LampDefinition[], bounds: Box3, materialMaps: number): Lamp[] {
