@@ -47,14 +47,16 @@ export interface LampDefinition {
   /** Half the sides of a rectangle. */
   u?: Triple;
   v?: Triple;
+  /** A rectangle that shines to both sides. */
+  twoSided?: boolean;
   radius?: number;
   /** Of rectangles and spheres, W/m2/sr. */
   radiance?: Triple;
   /** Of points and spots W/sr, of suns W/m2. */
   intensity?: Triple;
   /** Angles of a spot's cone, radians from its axis. */
-  inner?: number;
-  outer?: number;
+  innerConeAngle?: number;
+  outerConeAngle?: number;
   /** Metres; absent or 0: without end. */
   range?: number;
   /** The glTF node that it comes from. */

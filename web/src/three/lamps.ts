@@ -30,10 +30,17 @@ const SHARED_UNITS = 3;
 export function createLamps(definitions: LampDefinition[], bounds: Box3, materialMaps: number): Lamp[] {
   const shadows = Math.max(0, Math.min(MOST_SHADOWS, TEXTURE_UNITS - SHARED_UNITS - materialMaps));
   const sphere = bounds.getBoundingSphere(new Sphere());
-  const lamps = definitions.map((definition) => ({ light: createLamp(definition, sphere), power: irradianceAt(definition, sphere) }));
+  const lamps = definitions.flatMap(sides).map((definition) => ({ light: createLamp(definition, sphere), power: irradianceAt(definition, sphere) }));
   lamps.sort((a, b) => b.power - a.power);
   lamps.slice(0, shadows).forEach(({ light }) => castShadow(light, sphere));
   return lamps.map(({ light }) => light);
+}
+
+/** A lamp that shines to both sides is two. */
+function sides(definition: LampDefinition): LampDefinition[] {
+  const { normal, twoSided } = definition;
+  if (twoSided !== true || normal === undefined) return [definition];
+  return [definition, { ...definition, normal: [-normal[0], -normal[1], -normal[2]] }];
 }
 
 function createLamp(definition: LampDefinition, scene: Sphere): Lamp {
@@ -47,7 +54,7 @@ function createLamp(definition: LampDefinition, scene: Sphere): Lamp {
       return colored(sun, definition.intensity);
     }
     case 'spot': {
-      const { inner = 0, outer = Math.PI / 4 } = definition;
+      const { innerConeAngle: inner = 0, outerConeAngle: outer = Math.PI / 4 } = definition;
       const spot = new SpotLight(undefined, 1, definition.range ?? 0, outer, 1 - inner / outer);
       spot.position.copy(center);
       aim(spot, center.clone().add(normal));
