@@ -82,6 +82,16 @@ void add_import_options(CLI::App& command, ImportOptions& options) {
   command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
 }
 
+void add_environment_option(CLI::App& command, std::string& environment) {
+  command.add_option("--environment", environment, "Light from all around: R,G,B, or a Radiance .hdr file");
+}
+
+void add_threads_option(CLI::App& command, int& threads) {
+  command.add_option("--threads", threads, "Threads, 0 for all processors")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+}
+
 Result<Environment> read_environment(const std::string& argument) {
   Environment environment;
   if (auto color = parse_color(argument)) {

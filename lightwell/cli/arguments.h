@@ -24,6 +24,10 @@ Result<Vec<int, 2>> parse_size(const std::string& text);
 /// --up, --unit and --seed of the commands that read scenes.
 void add_import_options(CLI::App& command, ImportOptions& options);
 
+/// --environment and --threads of the commands that trace light.
+void add_environment_option(CLI::App& command, std::string& environment);
+void add_threads_option(CLI::App& command, int& threads);
+
 /// --environment: "R,G,B", or the name of a Radiance .hdr file.
 Result<Environment> read_environment(const std::string& argument);
 

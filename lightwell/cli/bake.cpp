@@ -125,15 +125,13 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   command->add_option("scene", options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene")->required();
   command->add_option("-o,--output", options->output, "The pack to write; - is stdout")->required();
   add_grid_options(*command, options->light);
-  command->add_option("--environment", options->environment, "Light from all around: R,G,B, or a Radiance .hdr file");
+  add_environment_option(*command, options->environment);
   add_import_options(*command, options->import);
   command
       ->add_option("--position-error", options->pack.position_error,
                    "How far a vertex may move, in metres (default: 14 bits for a mesh's longest side)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--threads", options->light.threads, "Threads, 0 for all processors")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  add_threads_option(*command, options->light.threads);
   command->footer(
       "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
       "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");

@@ -101,12 +101,10 @@ CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& c
                    "Bounces between source and point; 0 is direct light only")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  command->add_option("--environment", options->environment, "Light from all around: R,G,B, or a Radiance .hdr file");
+  add_environment_option(*command, options->environment);
   add_grid_options(*command, options->light);
   add_import_options(*command, options->import);
-  command->add_option("--threads", options->probe.threads, "Threads, 0 for all processors")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  add_threads_option(*command, options->probe.threads);
   command->footer("Example:\n  lightwell probe room.glb --points points.csv --integrator ivg > irradiance.csv");
   command->callback([=, &console, &chosen] {
     options->light.threads = options->probe.threads;

@@ -141,12 +141,10 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
                    "How the other nodes are filled: push-pull, push-pull-smooth or none")
       ->transform(CLI::CheckedTransformer(fills))
       ->default_str("push-pull");
-  command->add_option("--environment", options->environment, "Light from all around: R,G,B, or a Radiance .hdr file");
+  add_environment_option(*command, options->environment);
   add_grid_options(*command, options->light);
   add_import_options(*command, options->import);
-  command->add_option("--threads", render.threads, "Threads, 0 for all processors")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  add_threads_option(*command, render.threads);
   command->footer(
       "Examples:\n  lightwell render room.glb --spp 256 -o room.png\n"
       "  lightwell render room.lw.glb --integrator ivg --only indirect -o indirect.exr");

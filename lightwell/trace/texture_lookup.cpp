@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/trace/texture_lookup.h"
 
+#include "lightwell/texture/transfer.h"
+
 namespace lightwell {
 namespace {
-
-std::array<float, 256> make_srgb_table() {
-  std::array<float, 256> table{};
-  for (size_t code = 0; code < table.size(); code++) {
-    const double s = static_cast<double>(code) / 255;
-    table[code] = static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-  }
-  return table;
-}
 
 /// The texel that an index outside [0, size) stands for.
 int wrapped(int index, int size, TextureLookup::Wrap wrap) {
@@ -40,11 +33,6 @@ Vec4f texel(const Image& image, int x, int y, bool srgb) {
 float bounded(float x) { return std::isfinite(x) ? std::clamp(x, -1e6f, 1e6f) : 0.0f; }
 
 }  // namespace
-
-float srgb_to_linear(uint8_t code) {
-  static const std::array<float, 256> table = make_srgb_table();
-  return table[code];
-}
 
 Vec4f look_up(const TextureLookup& texture, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
               bool srgb) {

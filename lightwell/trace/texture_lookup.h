@@ -5,9 +5,6 @@
 
 namespace lightwell {
 
-/// The value of an sRGB code in linear light, IEC 61966-2-1.
-float srgb_to_linear(uint8_t code);
-
 /// The texture's RGBA at texture coordinates, bilinear between the texels' centres. With `srgb`, RGB is decoded to
 /// linear light before it is interpolated; alpha never is. White where there is no image. Grey images give three equal
 /// colours.

@@ -108,12 +108,5 @@ TEST(Texture, IsDecodedBeforeItIsInterpolated) {
   EXPECT_EQ(at(std::numeric_limits<float>::quiet_NaN()), at(0.25f));
 }
 
-TEST(Texture, DecodesTheCurveOfSrgb) {
-  EXPECT_EQ(srgb_to_linear(0), 0);
-  EXPECT_EQ(srgb_to_linear(255), 1);
-  EXPECT_NEAR(srgb_to_linear(188), 0.5f, 0.003f);  // IEC 61966-2-1: 187.5 is one half
-  EXPECT_NEAR(srgb_to_linear(10), 10 / 255.0f / 12.92f, 1e-7f);
-}
-
 }  // namespace
 }  // namespace lightwell
