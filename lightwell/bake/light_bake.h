@@ -24,7 +24,7 @@ struct LightBakeStatistics {
   size_t invalid_nodes = 0;
   float escaped = 0;  ///< share of flights that left the scene
   /// The noise of the grid, as a share of its root mean square irradiance: half the difference of two half bakes
-  /// (light.md section 4). Says nothing of the blur by the nodes' boxes.
+  /// (docs/light.md section 4). Says nothing of the blur by the nodes' boxes.
   float estimated_error = 0;
 };
 

@@ -14,7 +14,7 @@ constexpr float max_weight = 256;
 /// 0 for a direction in the plane between two half-spaces: light that lies in it exactly (a sun's) is of neither.
 float sign(float x) { return static_cast<float>((x > 0) - (x < 0)); }
 
-/// The nine moments of a unit of light that arrives from the unit direction w (light.md section 1).
+/// The nine moments of a unit of light that arrives from the unit direction w (docs/light.md section 1).
 std::array<float, 9> moments_of_direction(const Vec3f& w) {
   std::array<float, 9> m{};
   for (int a = 0; a < 3; a++) m[static_cast<size_t>(2 * a + (w[a] < 0 ? 1 : 0))] = std::abs(w[a]);

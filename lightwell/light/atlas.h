@@ -16,9 +16,9 @@ namespace lightwell {
 ///
 /// - plain, for any viewer with three.js's own lookup: the coefficients as they are; last channel 1.
 /// - patched, for shaders/light_grid.glsl: all channels of the plain form times node_weight times scale, so that
-///   dividing by the last one after filtering leaves invalid nodes out (light.md section 6) and undoes the scale. The
-///   lookup never filters the padding, so texel (0, 0, 0) carries what the chunk needs besides: the grid's cell / its
-///   longest side (red, green, blue) and the normal offset in cells (alpha); texel (1, 0, 0) is 0, for the page to
+///   dividing by the last one after filtering leaves invalid nodes out (docs/light.md section 5) and undoes the scale.
+///   The lookup never filters the padding, so texel (0, 0, 0) carries what the chunk needs besides: the grid's cell /
+///   its longest side (red, green, blue) and the normal offset in cells (alpha); texel (1, 0, 0) is 0, for the page to
 ///   mark. Where the grid stands in the world comes through three.js's uniforms: light_grid.glsl says how.
 enum class AtlasForm { plain, patched };
 

@@ -32,7 +32,7 @@ struct GridShape {
   static GridShape over(const Box3f& box, int longest);
 };
 
-/// The irradiance at a node for every direction, as nine moments for each colour (light.md section 1):
+/// The irradiance at a node for every direction, as nine moments for each colour (docs/light.md section 1):
 /// E for +x, -x, +y, -y, +z, -z (W/m2), then S for xy, xz, yz.
 struct Moments {
   std::array<Vec3f, 9> m{};  ///< each entry is an RGB triple
@@ -57,7 +57,7 @@ struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()
   std::vector<uint8_t> valid;    ///< 1 where a node stands in free space, 0 inside a solid
-  float normal_offset = 0.5f;    ///< a lookup is moved by this many cells along the normal, light.md section 6
+  float normal_offset = 0.5f;    ///< a lookup is moved by this many cells along the normal, docs/light.md section 5
 
   /// Irradiance (W/m2, RGB) at a point for a unit normal: trilinear among the eight nodes round point + normal_offset *
   /// cell * normal, valid ones at full weight and invalid ones at 2^-13. Points outside are clamped to the grid.
@@ -69,9 +69,9 @@ struct LightGrid {
 /// filled values.
 constexpr float node_weight(bool valid) { return valid ? 1.0f : 0x1p-13f; }
 
-/// Gives invalid nodes the light of the free space around them (light.md section 6): E_d is the mean of the neighbours
-/// on the d side, weighted by cos^2 / distance^2, S that of all neighbours by 1 / distance^2. Nodes deep inside solids
-/// are filled from those filled before them. Valid nodes never change; a grid without any stays as it is.
+/// Gives invalid nodes the light of the free space around them (docs/light.md section 5): E_d is the mean of the
+/// neighbours on the d side, weighted by cos^2 / distance^2, S that of all neighbours by 1 / distance^2. Nodes deep
+/// inside solids are filled from those filled before them. Valid nodes never change; a grid without any stays as it is.
 void fill_invalid(LightGrid& grid);
 
 }  // namespace lightwell

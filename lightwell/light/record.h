@@ -16,8 +16,8 @@ uint32_t encode_rgb9e5(const Vec3f& rgb);
 Vec3f decode_rgb9e5(uint32_t bits);
 
 /// The record `moments` of one node: 33 bytes, six RGB9E5 for E (+x, -x, +y, -y, +z, -z) and nine signed bytes for S
-/// (red, green, blue of xy, then xz, yz) in units of 1/127 of (M_a + M_b)/2, which S never exceeds (light.md section
-/// 7). An invalid node has -128 in its first signed byte, and 0 for the red S_xy of its fill.
+/// (red, green, blue of xy, then xz, yz) in units of 1/127 of (M_a + M_b)/2, which S never exceeds. An invalid node has
+/// -128 in its first signed byte, and 0 for the red S_xy of its fill.
 struct MomentsRecord {
   std::array<uint32_t, 6> irradiance{};
   std::array<int8_t, 9> shear{};

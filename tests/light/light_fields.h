@@ -21,7 +21,7 @@ inline Vec3f random_direction(Random& random) {
 
 inline Vec3f random_colour(Random& random) { return {{random.uniform(), random.uniform(), random.uniform()}}; }
 
-/// Moments of parallel light of irradiance `power` on a surface facing `towards` (light.md section 1).
+/// Moments of parallel light of irradiance `power` on a surface facing `towards` (docs/light.md section 1).
 inline Moments parallel_light(const Vec3f& towards, const Vec3f& power) {
   const auto sign = [](float v) { return v < 0 ? -1.0f : 1.0f; };
   const auto shear = [&](int a, int b) {
