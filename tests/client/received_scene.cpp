@@ -7,6 +7,7 @@
 
 #include "lightwell/base/assert.h"
 #include "lightwell/light/atlas.h"
+#include "lightwell/light/push_pull.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/opening.h"
@@ -100,6 +101,13 @@ struct Apply {
   }
 };
 
+PackReader open_pack(Bytes pack) {
+  const FetchBytes fetch = [pack](uint64_t first, uint64_t length) -> Result<std::vector<uint8_t>> {
+    return copy(pack.subspan(static_cast<size_t>(first), static_cast<size_t>(length)));
+  };
+  return PackReader::open(fetch, pack.size()).value();
+}
+
 template <typename Decoder>
 void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream) {
   for (uint32_t block = 0; block < reader.directory().streams[stream].blocks; block++) {
@@ -128,14 +136,19 @@ ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t strea
   return mesh;
 }
 
-std::vector<uint8_t> decode_light(const PackReader& reader, uint32_t stream) {
-  const StreamEntry& entry = reader.directory().streams[stream];
-  LightDecoder decoder = LightDecoder::open(entry.parameters).value();
-  append_all(decoder, reader, stream);
+std::vector<uint8_t> atlas_of(const LightDecoder& decoder, Fill fill) {
   const LightLayout& layout = decoder.layout();
   LightAtlas atlas(layout.shape, AtlasForm::patched, layout.normal_offset, layout.scale);
-  atlas.update(decoder.grid());
+  LightGrid grid = decoder.grid();
+  push_pull(grid, decoder.known(), fill);
+  atlas.update(grid);
   return copy({reinterpret_cast<const uint8_t*>(atlas.halves.data()), atlas.halves.size() * 2});
+}
+
+std::vector<uint8_t> decode_light(const PackReader& reader, uint32_t stream) {
+  LightDecoder decoder = LightDecoder::open(reader.directory().streams[stream].parameters).value();
+  append_all(decoder, reader, stream);
+  return atlas_of(decoder, Fill::none);
 }
 
 std::vector<uint8_t> decode_texture(const PackReader& reader, uint32_t stream) {
@@ -154,11 +167,24 @@ std::string ReceivedScene::apply(const Update& update) {
   return std::visit(Apply{*this}, update);
 }
 
+bool ReceivedScene::shows_only(const ReceivedScene& whole,
+                               const std::vector<std::vector<uint8_t>>& atlases_allowed) const {
+  if (!opening.empty() && opening != whole.opening) return false;
+  for (const auto& [stream, mesh] : meshes) {
+    const ReceivedMesh& full = whole.meshes.at(stream);
+    for (size_t i = 0; i + 1 < mesh.buffers.size(); i++) {
+      const size_t length = size_t(mesh.vertices) * mesh.strides[i];
+      if (!std::ranges::equal(Bytes(mesh.buffers[i]).first(length), Bytes(full.buffers[i]).first(length))) return false;
+    }
+  }
+  return std::ranges::all_of(textures, [&](const auto& own) { return own.second == whole.textures.at(own.first); }) &&
+         std::ranges::all_of(atlases, [&](const auto& own) {
+           return std::ranges::find(atlases_allowed, own.second) != atlases_allowed.end();
+         });
+}
+
 ReceivedScene decode_directly(Bytes pack) {
-  const FetchBytes fetch = [pack](uint64_t first, uint64_t length) -> Result<std::vector<uint8_t>> {
-    return copy(pack.subspan(static_cast<size_t>(first), static_cast<size_t>(length)));
-  };
-  const PackReader reader = PackReader::open(fetch, pack.size()).value();
+  const PackReader reader = open_pack(pack);
   ReceivedScene scene;
   scene.opening = reader.opening();
   for (uint32_t stream = 0; stream < reader.directory().streams.size(); stream++) {
@@ -170,6 +196,27 @@ ReceivedScene decode_directly(Bytes pack) {
   }
   scene.complete = true;
   return scene;
+}
+
+std::vector<std::vector<uint8_t>> atlases_on_the_way(Bytes pack) {
+  const PackReader reader = open_pack(pack);
+  std::vector<std::vector<uint8_t>> atlases;
+  const auto add = [&](const LightDecoder& decoder) {
+    for (const Fill fill : {Fill::none, Fill::push_pull, Fill::push_pull_smooth})
+      atlases.push_back(atlas_of(decoder, fill));
+  };
+  for (uint32_t stream = 0; stream < reader.directory().streams.size(); stream++) {
+    const StreamEntry& entry = reader.directory().streams[stream];
+    if (entry.kind != StreamKind::light) continue;
+    LightDecoder decoder = LightDecoder::open(entry.parameters).value();
+    add(decoder);
+    for (uint32_t block = 0; block < entry.blocks; block++) {
+      const auto appended = decoder.append(reader.block(stream, block).value());
+      LW_ASSERT(appended);
+      add(decoder);
+    }
+  }
+  return atlases;
 }
 
 }  // namespace lightwell

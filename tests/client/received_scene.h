@@ -32,10 +32,17 @@ struct ReceivedScene {
   /// Applies an update. Gives a complaint when it breaks what update.h promises: order, sizes, faces that may be drawn.
   std::string apply(const Update& update);
 
+  /// True when all that is shown so far belongs to the scene `whole`: its opening, the beginnings of its vertices, its
+  /// textures, and atlases out of `atlases`.
+  bool shows_only(const ReceivedScene& whole, const std::vector<std::vector<uint8_t>>& atlases) const;
+
   bool operator==(const ReceivedScene&) const = default;
 };
 
 /// The whole scene of a pack, decoded block by block without a client.
 ReceivedScene decode_directly(Bytes pack);
+
+/// Every atlas that a viewer may see on the way: after any number of blocks of a light stream, filled in any way.
+std::vector<std::vector<uint8_t>> atlases_on_the_way(Bytes pack);
 
 }  // namespace lightwell
