@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+#
+# run.sh [PART...]: prints the figures of docs/results again; each part shows its commands. What is missing on this machine
+# (../shared with the models and the truth, nginx, the browser) is named and left out.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+programs=build/release/bin
+lightwell=$programs/lightwell
+shared=../shared
+out=build/bench
+parts=(bake trace truth mesh light fetch server sizes frame)
+
+show() { # Prints a command, then runs it.
+  printf '\033[2m$ %s\033[0m\n' "$*" >&2
+  "$@"
+}
+
+missing() { echo "left out: $* is missing"; }
+
+pack() { # The real room where it is at hand, else the built-in one; its path is printed.
+  local scene=box pack=$out/room.lw.glb
+  [ -e "$shared/data/rooms/dragon-room.glb" ] && scene=$shared/data/rooms/dragon-room.glb
+  [ -e "$pack" ] || show "$lightwell" bake "$scene" -o "$pack" --quiet --json >"$out/bake.json"
+  echo "$pack"
+}
+
+bench_bake() {
+  rm -f "$out/room.lw.glb"
+  pack >/dev/null
+  tr ',{' '\n' <"$out/bake.json" | grep -E 'triangles|nodes|photons|import|light"|geometry|write|peak_memory|pack_bytes|opening'
+}
+
+bench_trace() { show "$programs/trace_bench"; }
+
+bench_truth() {
+  [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
+  local scene points
+  for scene in a_cornell b_tworooms c_furnace d_blob; do
+    for points in free surf; do
+      show "$lightwell" probe "$shared/truth/$scene.glb" --points "$shared/truth/$scene.$points.indirect.csv" \
+        --integrator ivg --grid 32 --photons 16M --quiet >"$out/$scene.$points.csv"
+      printf '%s %s\n' "$scene" "$points"
+      python3 "$shared/tools/compare_truth.py" "$shared/truth/$scene.$points.indirect.csv" "$out/$scene.$points.csv" |
+        grep -E '^(rms|bias|p95)'
+    done
+  done
+}
+
+bench_mesh() { show "$programs/mesh_bench" --benchmark_filter=/1000; }
+
+bench_light() { show "$programs/light_bench"; }
+
+bench_fetch() {
+  local pack
+  pack=$(pack)
+  show "$lightwell" fetch "$pack" --rate 10M --latency 50 --json |
+    grep -o '^{"bytes":[0-9]*\|"requests":[0-9]*,"seconds":[0-9.]*\|"first_picture":{[^}]*}'
+}
+
+# Requests a second for one block of 16 KB, one connection at a time, from lightwell serve and from nginx.
+bench_server() {
+  local pack page
+  pack=$(realpath "$(pack)")
+  "$lightwell" serve "$pack" --port 8097 --quiet &
+  time_ranges "lightwell serve" "http://127.0.0.1:8097/packs/room.lw.glb" $!
+  command -v nginx >/dev/null || { missing nginx; return; }
+  cat >"$out/nginx.conf" <<TEXT
+daemon off; worker_processes 1; pid $(realpath "$out")/nginx.pid; error_log stderr crit;
+events {}
+http { access_log off; server { listen 127.0.0.1:8098; root $(dirname "$pack"); } }
+TEXT
+  nginx -c "$(realpath "$out/nginx.conf")" -p "$(realpath "$out")" &
+  time_ranges "nginx" "http://127.0.0.1:8098/room.lw.glb" $!
+}
+
+time_ranges() { # NAME URL PROCESS: ends the process after it.
+  for _ in $(seq 50); do curl -sfo /dev/null -r 0-9 "$2" && break || sleep 0.1; done
+  local start=$EPOCHREALTIME config=$out/ranges.txt
+  for i in $(seq 2000); do printf 'url = "%s"\nrange = "%d-%d"\noutput = "/dev/null"\n' "$2" $((i * 16)) $((i * 16 + 16383)); done >"$config"
+  curl -s --config "$config"
+  awk -v name="$1" -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%s: %.0f ranges of 16 KB a second\n", name, 2000 / (b - a) }'
+  kill "$3"
+  wait "$3" 2>/dev/null || true
+}
+
+bench_sizes() { (cd web && show npm run --silent sizes); }
+
+bench_frame() {
+  command -v chromium >/dev/null || { missing chromium; return; }
+  show node bench/frame.mjs "$(pack)"
+}
+
+mkdir -p "$out"
+[ $# -gt 0 ] && parts=("$@")
+for part in "${parts[@]}"; do
+  printf '\n\033[1m%s\033[0m\n' "$part"
+  "bench_$part"
+done
