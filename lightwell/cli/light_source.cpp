@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/cli/light_source.h"
 
+#include "lightwell/bake/lamps.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/open_scene.h"
 
@@ -28,6 +29,14 @@ void add_grid_options(CLI::App& command, LightBakeOptions& options) {
           "Nodes on the light grid's longest axis, or auto (32)")
       ->default_str("auto");
   add_count(command, "--photons", options.photons, "Photons to trace into the grid")->default_str("8M");
+}
+
+std::vector<uint8_t> contained_in_grid(const std::string& path, const TraceScene& scene, bool environment) {
+  if (is_pack(path)) return plan_lamps(scene).contained;
+  std::vector<uint8_t> contained;
+  for (const Luminaire& luminaire : scene.lights().luminaires())
+    contained.push_back(luminaire.kind == Luminaire::Kind::environment && environment);
+  return contained;
 }
 
 Result<LightGrid> light_of(const std::string& path, const TraceScene& scene, const LightBakeOptions& options,

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/lamps.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
@@ -18,16 +17,6 @@ struct Options {
   bool without_environment = false;
 };
 
-// Irradiance is compared with other programs', so a grid of the scene holds bounced light only, and the environment
-// unless it is left out. A pack's grid holds what it holds.
-std::vector<uint8_t> contained_in_grid(const Options& options, const TraceScene& scene) {
-  if (is_pack(options.scene)) return plan_lamps(scene).contained;
-  std::vector<uint8_t> contained;
-  for (const Luminaire& luminaire : scene.lights().luminaires())
-    contained.push_back(luminaire.kind == Luminaire::Kind::environment && !options.without_environment);
-  return contained;
-}
-
 Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ProbePoint>& points, Progress& progress,
                                     Report& report) {
   LW_TRY(scene, open_scene(options.scene, options.import, options.environment, report));
@@ -38,7 +27,7 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Pr
   LightGrid grid;
   std::vector<uint8_t> contained;
   if (probe_options.integrator == Integrator::ivg) {
-    contained = contained_in_grid(options, *traced);
+    contained = contained_in_grid(options.scene, *traced, !options.without_environment);
     LightBakeOptions light = options.light;
     light.seed = options.import.seed;
     light.contained = contained;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/lamps.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
@@ -50,23 +49,23 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);
-  const LampPlan lamps = plan_lamps(*traced);
+  const std::vector<uint8_t> contained = contained_in_grid(options.scene, *traced);
   LightGrid grid;
   Display display = options.display;
   const bool chosen_exposure = !options.exposure && options.output.ends_with(".png");
   if (render_options.integrator == Integrator::ivg || chosen_exposure) {
     LightBakeOptions light = options.light;
     light.seed = options.import.seed;
-    light.contained = lamps.contained;
+    light.contained = contained;
     LW_TRY(found, light_of(options.scene, *traced, light, progress, options.light_level));
     grid = std::move(found);
     render_options.grid = &grid;
-    render_options.contained = lamps.contained;
+    render_options.contained = contained;
   }
   if (options.exposure)
     display.exposure = *options.exposure;
   else if (chosen_exposure)
-    display.exposure = choose_exposure(*traced, camera, grid, lamps.contained);
+    display.exposure = choose_exposure(*traced, camera, grid, contained);
   figures.prepare_seconds = watch.lap();
 
   render_options.seed = options.import.seed;
