@@ -5,7 +5,7 @@
 
 /// Checks a contract between functions of the program: a false condition is a bug, never bad input.
 /// Active in every build, since a wrong picture costs more than the test.
-#define LW_ASSERT(condition)         \
-  do {                               \
-    if (!(condition)) std::abort();  \
+#define LW_ASSERT(condition)        \
+  do {                              \
+    if (!(condition)) std::abort(); \
   } while (false)

@@ -39,7 +39,8 @@ Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
     if (status != Z_OK && status != Z_STREAM_END)
       return fail("gzip", status == Z_BUF_ERROR ? "the file ends too early" : "damaged data");
     const size_t produced = chunk.size() - stream.avail_out;
-    if (bytes.size() + produced > limit) return fail("gzip", "inflates to more than " + std::to_string(limit) + " bytes");
+    if (bytes.size() + produced > limit)
+      return fail("gzip", "inflates to more than " + std::to_string(limit) + " bytes");
     bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<ptrdiff_t>(produced));
   }
   return bytes;

@@ -10,8 +10,8 @@
 
 namespace lightwell {
 
-/// The whole of a regular file; a gzipped one (recognised by content) is inflated when `inflate` is set. Errors name the
-/// file. At most `limit` bytes are produced, so that a small hostile file cannot exhaust memory.
+/// The whole of a regular file; a gzipped one (recognised by content) is inflated when `inflate` is set. Errors name
+/// the file. At most `limit` bytes are produced, so that a small hostile file cannot exhaust memory.
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate = false,
                                        size_t limit = size_t(4) << 30);
 

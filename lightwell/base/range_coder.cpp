@@ -8,9 +8,7 @@ namespace {
 
 constexpr uint32_t smallest_range = 1u << 24;
 
-uint32_t split(uint32_t range, const AdaptiveBit& context) {
-  return (range >> 16) * context.probability_of_zero();
-}
+uint32_t split(uint32_t range, const AdaptiveBit& context) { return (range >> 16) * context.probability_of_zero(); }
 
 // The bits of value below its leading one: two adaptive ones, then raw ones.
 void encode_below_leading(RangeEncoder& encoder, std::array<AdaptiveBit, 4>& contexts, uint32_t value, int width) {
@@ -76,8 +74,8 @@ std::vector<uint8_t> RangeEncoder::finish() {
   return bytes;
 }
 
-// A byte leaves when no carry can reach it any more: a run of 0xff waits in pending_. The very first byte is always zero
-// and is not written.
+// A byte leaves when no carry can reach it any more: a run of 0xff waits in pending_. The very first byte is always
+// zero and is not written.
 void RangeEncoder::shift_low() {
   if (low_ < 0xff000000u || low_ > 0xffffffffu) {
     const uint8_t carry = static_cast<uint8_t>(low_ >> 32);

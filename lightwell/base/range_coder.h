@@ -9,9 +9,9 @@
 
 namespace lightwell {
 
-/// The probability that the next bit of one context is 0, learned from the bits seen there: the mean of a fast and a slow
-/// state (rates 1/16 and 1/128), 16 bits each. Encoder and decoder keep equal copies; integers only, so that native and
-/// WebAssembly agree to the bit.
+/// The probability that the next bit of one context is 0, learned from the bits seen there: the mean of a fast and a
+/// slow state (rates 1/16 and 1/128), 16 bits each. Encoder and decoder keep equal copies; integers only, so that
+/// native and WebAssembly agree to the bit.
 class AdaptiveBit {
  public:
   /// Probability of a 0 in units of 2^-16, within [32, 65504].
@@ -51,8 +51,8 @@ class RangeEncoder {
   bool first_ = true;
 };
 
-/// Decodes what RangeEncoder wrote. Bytes beyond the end read as zero: any input decodes to something, in time bounded by
-/// the number of calls, and overrun() tells that it was too short.
+/// Decodes what RangeEncoder wrote. Bytes beyond the end read as zero: any input decodes to something, in time bounded
+/// by the number of calls, and overrun() tells that it was too short.
 class RangeDecoder {
  public:
   explicit RangeDecoder(Bytes bytes);
@@ -95,8 +95,8 @@ class AdaptiveSymbol {
   std::array<AdaptiveBit, (size_t(1) << Bits)> tree_;
 };
 
-/// An adaptive model of signed 32-bit integers that are mostly small: the number of significant bits as a symbol, the two
-/// bits below the leading one adaptive, the others raw, and an adaptive sign.
+/// An adaptive model of signed 32-bit integers that are mostly small: the number of significant bits as a symbol, the
+/// two bits below the leading one adaptive, the others raw, and an adaptive sign.
 class AdaptiveInteger {
  public:
   void encode(RangeEncoder& encoder, int32_t value);

@@ -43,14 +43,14 @@ struct Report {
 }  // namespace lightwell
 
 /// Evaluates a Result, returns its error from the calling function, or declares `name` as its value.
-#define LW_TRY(name, expression)                                            \
-  auto name##_result = (expression);                                        \
+#define LW_TRY(name, expression)                                                  \
+  auto name##_result = (expression);                                              \
   if (!name##_result) return ::lightwell::fail(std::move(name##_result).error()); \
   auto& name = *name##_result
 
 /// Evaluates a Result<void> and returns its error from the calling function.
-#define LW_CHECK(expression)                                                  \
-  do {                                                                        \
-    auto check_result = (expression);                                         \
+#define LW_CHECK(expression)                                                      \
+  do {                                                                            \
+    auto check_result = (expression);                                             \
     if (!check_result) return ::lightwell::fail(std::move(check_result).error()); \
   } while (false)

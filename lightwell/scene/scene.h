@@ -31,9 +31,9 @@ struct Material {
 
   std::string name;
   Vec4f base_color = Vec4f::filled(1);
-  TextureLookup base_color_texture;          ///< sRGB
-  Vec3f emission{};                          ///< radiance of the front, W/m2/sr: emissiveFactor * emissiveStrength
-  TextureLookup emission_texture;            ///< sRGB
+  TextureLookup base_color_texture;  ///< sRGB
+  Vec3f emission{};                  ///< radiance of the front, W/m2/sr: emissiveFactor * emissiveStrength
+  TextureLookup emission_texture;    ///< sRGB
   float metallic = 1;
   float roughness = 1;
   TextureLookup metallic_roughness_texture;  ///< linear: green roughness, blue metallic
@@ -46,11 +46,11 @@ struct Material {
 
 /// One drawable piece of a mesh: a glTF primitive of triangles, shared by all its instances.
 struct Primitive {
-  Mesh mesh;                 ///< in the space of its glTF mesh
-  int material = -1;         ///< index into Scene::materials; -1: glTF's default material
-  int source_mesh = -1;      ///< where it stands in Scene::document
+  Mesh mesh;             ///< in the space of its glTF mesh
+  int material = -1;     ///< index into Scene::materials; -1: glTF's default material
+  int source_mesh = -1;  ///< where it stands in Scene::document
   int source_primitive = -1;
-  bool deforming = false;    ///< skinned, morphed or animated: copied unrefined, and left out of the bake
+  bool deforming = false;  ///< skinned, morphed or animated: copied unrefined, and left out of the bake
 };
 
 /// A primitive placed in the scene.
@@ -66,21 +66,21 @@ struct Lamp {
 
   Kind kind = Kind::point;
   std::string name;
-  Vec3f position{};           ///< metres; not for a sun
-  Vec3f direction{{0, 0, -1}};///< unit, the way the light goes; not for a point
-  Vec3f intensity{};          ///< color * intensity: W/sr, of a sun the irradiance facing it, W/m2
-  float range = 0;            ///< metres; 0: unlimited
-  float inner_cone = 0;       ///< radians from the axis, of a spot
+  Vec3f position{};             ///< metres; not for a sun
+  Vec3f direction{{0, 0, -1}};  ///< unit, the way the light goes; not for a point
+  Vec3f intensity{};            ///< color * intensity: W/sr, of a sun the irradiance facing it, W/m2
+  float range = 0;              ///< metres; 0: unlimited
+  float inner_cone = 0;         ///< radians from the axis, of a spot
   float outer_cone = 0.7853982f;
-  int node = -1;              ///< of Scene::document
+  int node = -1;  ///< of Scene::document
 };
 
 struct Camera {
   std::string name;
-  Transform to_scene;     ///< looks along its -z, y up
-  float yfov = 0.8f;      ///< radians
-  float aspect = 0;       ///< width / height; 0: the picture's
-  int width = 0;          ///< pixels, from extras, 0 when the file says nothing
+  Transform to_scene;  ///< looks along its -z, y up
+  float yfov = 0.8f;   ///< radians
+  float aspect = 0;    ///< width / height; 0: the picture's
+  int width = 0;       ///< pixels, from extras, 0 when the file says nothing
   int height = 0;
 };
 
@@ -109,14 +109,14 @@ struct Scene {
 };
 
 struct ImportOptions {
-  char up = 'y';        ///< the axis of the file that points up: 'y' or 'z'
-  float unit = 1;       ///< length of the file's unit in metres
-  uint64_t seed = 1;    ///< of built-in scenes
+  char up = 'y';      ///< the axis of the file that points up: 'y' or 'z'
+  float unit = 1;     ///< length of the file's unit in metres
+  uint64_t seed = 1;  ///< of built-in scenes
 };
 
-/// Reads a scene: a glTF 2.0 or GLB, OBJ or PLY file, each possibly gzipped, recognised by content; or a built-in scene by
-/// name, see builtin_scenes(). Nothing outside the file's folder is read. What is unsupported is warned of in `report`.
-/// Errors name file, element and reason.
+/// Reads a scene: a glTF 2.0 or GLB, OBJ or PLY file, each possibly gzipped, recognised by content; or a built-in scene
+/// by name, see builtin_scenes(). Nothing outside the file's folder is read. What is unsupported is warned of in
+/// `report`. Errors name file, element and reason.
 Result<Scene> load_scene(const std::string& path, const ImportOptions& options, Report& report);
 
 }  // namespace lightwell

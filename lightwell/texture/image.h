@@ -10,8 +10,8 @@ namespace lightwell {
 struct Image {
   int width = 0;
   int height = 0;
-  int channels = 0;              ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA
-  std::vector<uint8_t> pixels;   ///< width * height * channels
+  int channels = 0;             ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA
+  std::vector<uint8_t> pixels;  ///< width * height * channels
 };
 
 /// A picture of linear RGB radiance, first row at the top.

@@ -62,7 +62,7 @@ TEST(Random, GivesEachIndexItsOwnUniformNumbers) {
     sum += a;
     of_products += (a - 0.5) * (b - 0.5);
   }
-  EXPECT_NEAR(sum / count, 0.5, 4 * std::sqrt(1.0 / 12 / count));    // four standard errors
+  EXPECT_NEAR(sum / count, 0.5, 4 * std::sqrt(1.0 / 12 / count));  // four standard errors
   EXPECT_NEAR(of_products / count, 0, 4 / 12.0 / std::sqrt(count));
 }
 
@@ -81,7 +81,9 @@ TEST(Transform, InverseAndNormalAreRight) {
   Random random(3, 0);
   auto number = [&] { return static_cast<double>(random.uniform()) * 4 - 2; };
   for (int i = 0; i < 100; i++) {
-    const Transform m{{{number(), number(), number()}}, {{number(), number(), number()}}, {{number(), number(), number()}},
+    const Transform m{{{number(), number(), number()}},
+                      {{number(), number(), number()}},
+                      {{number(), number(), number()}},
                       {{number(), number(), number()}}};
     if (std::abs(m.determinant()) < 0.1) continue;
     const Vec3d p{{number(), number(), number()}};

@@ -24,7 +24,10 @@ std::vector<Step> random_steps(uint64_t seed, int length) {
     switch (step.kind) {
       case Step::Kind::bit: step.value = random.below(100) < 3; break;
       case Step::Kind::raw: step.value = random.bits() >> (32 - step.count); break;
-      case Step::Kind::integer: step.value = random.bits() >> random.below(32); if (random.below(2)) step.value = 0 - step.value; break;
+      case Step::Kind::integer:
+        step.value = random.bits() >> random.below(32);
+        if (random.below(2)) step.value = 0 - step.value;
+        break;
       case Step::Kind::natural: step.value = random.bits() >> random.below(32); break;
       case Step::Kind::symbol: step.value = random.below(256); break;
     }
