@@ -176,7 +176,7 @@ bool Client::work() { return machine_->work(); }
 
 std::optional<Update> Client::take(size_t budget) { return machine_->take(budget); }
 
-double Client::wake(double now) const { return machine_->requests().wake(now); }
+double Client::wake() const { return machine_->requests().wake(); }
 
 void Client::set_weight(uint32_t stream, float weight) { machine_->set_weight(stream, weight); }
 void Client::set_strategy(Strategy strategy) { machine_->requests().set_strategy(strategy); }

@@ -62,8 +62,9 @@ class Client {
   std::optional<Update> take(size_t budget);
 
   /// When to call next() again although nothing was reported: the end of a pause before a retry, or of the patience
-  /// with a silent server; infinity when only a report or take() can bring something new.
-  double wake(double now) const;
+  /// with a silent server; infinity when only a report or take() can bring something new. It may be in the past: time
+  /// passes between two calls.
+  double wake() const;
 
   /// How much a stream matters to the present picture, 1 at first: error of `weight` times the size is as bad. Meshes:
   /// pixels a metre times the share of the picture that the object covers; light: the visible share of the grid. 0 puts

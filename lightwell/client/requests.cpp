@@ -17,6 +17,7 @@ bool worth_another_try(int status) { return status == 408 || status == 425 || st
 }  // namespace
 
 std::optional<Action> Requests::next(std::span<const float> weights, double now) {
+  looked_ = now;
   if (!stopped_) drop_silent(now);
   if (!cancels_.empty()) {
     const uint32_t id = cancels_.front();
@@ -177,9 +178,10 @@ void Requests::stop() {
   whole_.reset();
 }
 
-double Requests::wake(double now) const {
+/// A pause that has ended since the last next() counts: nobody has been asked since then.
+double Requests::wake() const {
   if (stopped_) return never;
-  double when = line_.retry_at() > now ? line_.retry_at() : never;
+  double when = line_.retry_at() > looked_ ? line_.retry_at() : never;
   for (const auto& [id, request] : open_) when = std::min(when, request.heard + patience_seconds);
   return when;
 }

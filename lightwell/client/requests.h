@@ -35,7 +35,7 @@ class Requests {
   /// Why that happened, if it was not somebody else who called stop().
   const std::optional<FailureUpdate>& failure() const { return failure_; }
 
-  double wake(double now) const;
+  double wake() const;
   uint32_t sent() const { return next_id_ - 1; }
   uint32_t failures() const { return line_.failures(); }
 
@@ -68,6 +68,7 @@ class Requests {
   Strategy strategy_;
   Line line_;
   uint32_t next_id_ = 1;
+  double looked_ = -1;  ///< time of the last next()
   Open open_;
   std::deque<uint32_t> cancels_;
   std::optional<uint32_t> whole_;  ///< the one response that brings the whole file

@@ -116,7 +116,7 @@ void LW_EXPORT(lw_finish)(uint32_t client, uint32_t request, double now) { clien
 
 void LW_EXPORT(lw_fail)(uint32_t client, uint32_t request, double now) { client_of(client).fail(request, now); }
 
-double LW_EXPORT(lw_wake)(uint32_t client, double now) { return client_of(client).wake(now); }
+double LW_EXPORT(lw_wake)(uint32_t client) { return client_of(client).wake(); }
 
 uint32_t LW_EXPORT(lw_work)(uint32_t client) { return client_of(client).work(); }
 

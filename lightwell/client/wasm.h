@@ -38,8 +38,8 @@ void lw_receive(uint32_t client, uint32_t request, uint32_t length, double now);
 void lw_finish(uint32_t client, uint32_t request, double now);
 /// No response, or the connection broke.
 void lw_fail(uint32_t client, uint32_t request, double now);
-/// When to call lw_next again although nothing happened; infinity when there is no need.
-double lw_wake(uint32_t client, double now);
+/// When to call lw_next again although nothing happened, perhaps in the past; infinity when there is no need.
+double lw_wake(uint32_t client);
 
 /// Decodes at most one block, or fills a light grid; 0 when there was nothing to do. A mesh takes no further block
 /// while a batch of it is half taken: call again after lw_take.

@@ -81,7 +81,7 @@ Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::func
     if (cancelled && cancelled()) return fail("fetch", "was cancelled");
     perform(client, transport);
     const double now = transport.now();
-    const double until = std::min(client.wake(now), now + longest_wait);
+    const double until = std::min(client.wake(), now + longest_wait);
     if (const std::optional<TransportEvent> event = transport.wait(until)) report(client, *event, transport.now());
     watcher.drain(client);
     watcher.remember(client, transport.now(), outcome);

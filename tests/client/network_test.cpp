@@ -94,6 +94,8 @@ TEST(Network, AnswersOvertakeEachOther) { expect_exact({.jitter = 0.5, .rate = 2
 
 TEST(Network, RequestsAreLost) { expect_exact({.lost = 0.3}, 3); }
 
+TEST(Network, PauseEndsWhileTheDriverIsBusy) { expect_exact({.lost = 0.3, .busy = 0.05}, 3); }
+
 TEST(Network, ServerFallsSilent) { expect_exact({.silent = 0.1}, 3); }
 
 TEST(Network, BodiesEndEarly) {

@@ -2,6 +2,8 @@
 #include "tests/client/sample_pack.h"
 
 #include <cmath>
+#include <iomanip>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -136,7 +138,8 @@ class Opening {
 
 std::string triple(const Vec3f& v) {
   std::ostringstream text;
-  text << "[" << v[0] << "," << v[1] << "," << v[2] << "]";
+  text << std::setprecision(std::numeric_limits<float>::max_digits10) << "[" << v[0] << "," << v[1] << "," << v[2]
+       << "]";
   return text.str();
 }
 

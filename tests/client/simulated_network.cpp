@@ -16,7 +16,8 @@ ReceivedScene SimulatedNetwork::run(const ClientOptions& options, double patienc
     perform(client);
     drain(client, scene);
     perform(client);
-    const double wake = client.wake(now_);
+    now_ += weather_.busy;
+    const double wake = client.wake();
     if (!events_.empty() && events_.begin()->first <= wake) {
       const auto next = events_.begin();
       now_ = std::max(now_, next->first);

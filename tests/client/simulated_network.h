@@ -26,6 +26,7 @@ struct Weather {
   double corrupted = 0;                      ///< one bit of the body is flipped
   double overloaded = 0;                     ///< status 503
   double repeated = 0;                       ///< the whole answer is told twice
+  double busy = 0;                           ///< seconds between next() and wake()
   bool ranges = true;                        ///< false: 200 and the whole file, whatever is asked
   bool readable_headers = true;              ///< false: neither Content-Range nor ETag, as from another origin
   double gone_from = 1e9, gone_until = 1e9;  ///< no connection in this time

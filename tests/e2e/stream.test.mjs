@@ -6,6 +6,7 @@ import { launch, openPage } from './browser.mjs';
 import { WEB } from './dependencies.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startNginx, startServe } from './servers.mjs';
+import { startSlowRelay } from './slow_relay.mjs';
 import { startStaticServer } from './static_server.mjs';
 import { complete, loaded, notice, pauseAfter, paused, progress, resume } from './view.mjs';
 
@@ -13,6 +14,9 @@ const folder = temporaryFolder();
 const SMALL = writeSamplePack(`${folder}/small.lw.glb`, 20_000);
 const LARGE = writeSamplePack(`${folder}/large.lw.glb`, 200_000);
 const OTHER = writeSamplePack(`${folder}/other.lw.glb`, 150_000);
+
+/** Bytes a second of each response, where a test has to act in mid-stream. */
+const SLOW = 100_000;
 
 let browser;
 before(async () => (browser = await launch()));
@@ -28,9 +32,10 @@ function pageRoutes(names, base = '/packs/') {
   };
 }
 
-async function staticPage(t, names, { base, init, ...options } = {}) {
-  const server = await startStaticServer(pageRoutes(names, base), options);
-  t.after(() => server.stop());
+async function staticPage(t, names, { base, init, slowly = false, ...options } = {}) {
+  let server = await startStaticServer(pageRoutes(names, base), options);
+  t.after(server.stop);
+  if (slowly) t.after((server = await startSlowRelay(server.url, SLOW)).stop);
   const opened = await openPage(browser, { init });
   t.after(() => opened.close());
   await opened.page.goto(server.url);
@@ -94,9 +99,11 @@ test('each strategy ends in the same state', async (t) => {
 test('a server that dies is waited for, what has come is kept', async (t) => {
   let server = await startServe(LARGE);
   t.after(() => server.stop());
+  const relay = await startSlowRelay(server.url, SLOW);
+  t.after(relay.stop);
   const { page, errors, close } = await openPage(browser, { init: pauseAfter(100_000) });
   t.after(close);
-  await page.goto(server.url);
+  await page.goto(relay.url);
   await paused(page);
   const { faces } = await progress(page);
   await server.stop('SIGKILL');
@@ -113,7 +120,7 @@ test('a file that is replaced in mid-stream is said and loaded anew', async (t) 
   mkdirSync(`${folder}/changing`);
   const file = `${folder}/changing/large.lw.glb`;
   copyFileSync(LARGE, file);
-  const { page, errors } = await staticPage(t, ['large.lw.glb'], { base: '/packs/changing/', init: pauseAfter(100_000) });
+  const { page, errors } = await staticPage(t, ['large.lw.glb'], { base: '/packs/changing/', init: pauseAfter(100_000), slowly: true });
   await paused(page);
   copyFileSync(OTHER, `${file}.new`);
   renameSync(`${file}.new`, file);

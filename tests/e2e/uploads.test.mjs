@@ -9,9 +9,14 @@ import { startStaticServer } from './static_server.mjs';
 import { complete } from './view.mjs';
 
 const BYTES_PER_FRAME = 256 * 1024;
+/** 200,000 faces from at most 12,000, each level at most twice the last: 5 at least. */
+const LEVELS = 5;
 /** Starts the record two frames after the first: then everything has been drawn, and so allocated, once. */
 const RECORD_FROM_OPENING = `addEventListener('DOMContentLoaded', () => {
-  document.querySelector('lightwell-view').addEventListener('firstframe', () =>
+  const view = document.querySelector('lightwell-view');
+  globalThis.levels = 0;
+  view.addEventListener('load', () => view.pack.addEventListener('geometry', () => levels++));
+  view.addEventListener('firstframe', () =>
     requestAnimationFrame(() => requestAnimationFrame(() => { glRecord.reset(); globalThis.recording = true; })));
 });`;
 
@@ -22,7 +27,7 @@ let browser;
 before(async () => (browser = await launch()));
 after(() => browser.close());
 
-test('after the opening nothing is allocated, and a frame is handed at most 256 KB', async (t) => {
+test('after the opening nothing is allocated, a frame is handed at most 256 KB, and the mesh grows level by level', async (t) => {
   const packs = { packs: [{ name: 'large.lw.glb', url: '/packs/large.lw.glb' }] };
   const server = await startStaticServer({
     '/': `${WEB}dist`,
@@ -40,5 +45,7 @@ test('after the opening nothing is allocated, and a frame is handed at most 256 
   assert.deepEqual(allocations, []);
   assert.ok(Math.max(...frames) <= BYTES_PER_FRAME, `${Math.max(...frames)} bytes in one frame`);
   assert.ok(total > 1e6, `only ${total} bytes were seen`);
+  const levels = await page.evaluate(() => globalThis.levels);
+  assert.ok(levels >= LEVELS, `only ${levels} levels were shown`);
   assert.deepEqual(errors, []);
 });

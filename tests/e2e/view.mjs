@@ -7,7 +7,9 @@ export const defined = (page) => page.waitForFunction(() => document.querySelect
 
 export const loaded = (page) => page.waitForFunction(() => document.querySelector('lightwell-view')?.loaded);
 
-export const complete = (page) => page.waitForFunction(() => document.querySelector('lightwell-view')?.complete);
+/** Waits until all has come and is on the GPU; without `timeout` as long as for anything else. */
+export const complete = (page, timeout = undefined) =>
+  page.waitForFunction(() => document.querySelector('lightwell-view')?.complete, undefined, { timeout });
 
 export const progress = (page) => page.evaluate(() => document.querySelector('lightwell-view').progress);
 

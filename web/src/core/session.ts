@@ -90,9 +90,8 @@ export class PackSession {
     let more = true;
     while (more && performance.now() - start < SLICE) {
       this.#act(client);
-      const decoded = client.work();
-      const taken = this.#take(client, events);
-      more = decoded || taken;
+      // What is decoded while the page has no room would come to it in one piece that is too large.
+      more = this.#inFlight < IN_FLIGHT && this.#advance(client, events);
     }
     this.#report(client, events, start);
     if (events.length > 0) this.#emit(events);
@@ -107,9 +106,13 @@ export class PackSession {
     }
   }
 
-  /** Takes one update over when the page has room for it; false when there is none or no room. */
+  /** Decodes one block and takes one update over; false when there is neither. */
+  #advance(client: WasmClient, events: PackEvent[]): boolean {
+    const decoded = client.work();
+    return this.#take(client, events) || decoded;
+  }
+
   #take(client: WasmClient, events: PackEvent[]): boolean {
-    if (this.#inFlight >= IN_FLIGHT) return false;
     const event = client.take(PIECE);
     if (event === null) return false;
     if (event.type === 'connection') this.#state = event.state;

@@ -14,7 +14,7 @@ interface Exports {
   lw_receive(client: number, request: number, length: number, now: number): void;
   lw_finish(client: number, request: number, now: number): void;
   lw_fail(client: number, request: number, now: number): void;
-  lw_wake(client: number, now: number): number;
+  lw_wake(client: number): number;
   lw_work(client: number): number;
   lw_take(client: number, budget: number): number;
   lw_set_strategy(client: number, strategy: number): void;
@@ -94,7 +94,7 @@ export class WasmClient {
 
   /** Seconds until next() has to be called although nothing happened. */
   wakeIn(now: number): number {
-    return this.#wasm.lw_wake(this.#handle, now) - now;
+    return this.#wasm.lw_wake(this.#handle) - now;
   }
 
   /** Decodes at most one block; true when another waits. */

@@ -4,7 +4,7 @@ import { LinearToneMapping, NeutralToneMapping, PCFShadowMap, PerspectiveCamera,
 export type Tone = 'neutral' | 'none';
 
 /** Shadows are drawn anew at most this often while geometry streams in, in milliseconds. */
-const SHADOW_INTERVAL = 250;
+const SHADOW_INTERVAL = 500;
 /** Pixels of the canvas for each of the page's, at most. */
 const MOST_PIXEL_RATIO = 2;
 /** Frames further apart than this are not one animation, in milliseconds. */
@@ -71,7 +71,7 @@ export class Stage {
     if (this.#running && this.#request === 0) this.#request = requestAnimationFrame((time) => this.draw(time));
   }
 
-  /** The next frame shows what moved in its shadows too; at most four times a second. */
+  /** The next frame shows what moved in its shadows too; at most twice a second. */
   invalidateShadows(): void {
     clearTimeout(this.#shadowTimer);
     const wait = this.#shadowTime + SHADOW_INTERVAL - performance.now();

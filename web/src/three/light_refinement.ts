@@ -27,10 +27,15 @@ export class LightRefinement implements Refinement {
   #next = 0;
   #consumed = 0;
 
-  constructor(light: LightwellLight, renderer: WebGLRenderer) {
+  /** `first` is a state that is there from the first frame on. */
+  constructor(light: LightwellLight, renderer: WebGLRenderer, first?: LightEvent) {
     this.#light = light;
     this.#renderer = renderer;
     this.#bands = bandsOf(light.definition.nodes);
+    if (first !== undefined) {
+      light.setAtlas(this.#atlasOf(first));
+      this.#consumed = first.atlas.byteLength;
+    }
     renderer.initTexture(light.texture);
   }
 
@@ -40,10 +45,8 @@ export class LightRefinement implements Refinement {
 
   /** A newer state takes the place of one that has not begun to be handed over. */
   receive(event: LightEvent): void {
-    if (event.atlas.length !== (this.#light.texture.image.data as Uint16Array).length)
-      throw new Error(`the light of stream ${event.stream} has another size than its grid`);
     this.#consumed += this.#waiting?.byteLength ?? 0;
-    this.#waiting = markContents(event.atlas, this.#light.definition);
+    this.#waiting = markContents(this.#atlasOf(event), this.#light.definition);
   }
 
   advance(budget: UploadBudget): boolean {
@@ -72,6 +75,12 @@ export class LightRefinement implements Refinement {
 
   dispose(): void {
     this.#light.dispose();
+  }
+
+  #atlasOf(event: LightEvent): LightEvent['atlas'] {
+    if (event.atlas.length !== (this.#light.texture.image.data as Uint16Array).length)
+      throw new Error(`the light of stream ${event.stream} has another size than its grid`);
+    return event.atlas;
   }
 
   #begin(): Data3DTexture | null {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
 import { type ConnectionOptions, PackConnection } from '../core/connection.js';
-import type { PackEvent } from '../core/protocol.js';
+import type { LightEvent, PackEvent } from '../core/protocol.js';
 import { readOpening } from './opening.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
+
+/** The first state of the lights is waited for this long, in milliseconds. */
+const LIGHT_PATIENCE = 1000;
 
 export type LoaderOptions = ConnectionOptions & SceneOptions;
 
@@ -60,7 +63,9 @@ export class LightwellLoader extends Loader<LightwellScene> {
     try {
       const { glb, later } = await receiveOpening(url, connection, onProgress);
       const opening = await readOpening(glb, this.manager);
-      const scene = await LightwellScene.create(opening, connection, renderer, this.#options);
+      const grids = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
+      const lights = await receiveLights(grids.map(({ stream }) => stream), connection, later);
+      const scene = await LightwellScene.create(opening, lights, connection, renderer, this.#options);
       setTimeout(() => {
         later.forEach((event) => scene.receive(event));
         connection.onEvent = (event) => scene.receive(event);
@@ -87,6 +92,31 @@ function receiveOpening(
       else if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
       later.push(event);
     };
+  });
+}
+
+/**
+ * Takes the first state of each light out of what has come, after waiting for it a little: it lies close behind the opening, and
+ * a first picture without it would be black.
+ */
+function receiveLights(streams: number[], connection: PackConnection, later: PackEvent[]): Promise<LightEvent[]> {
+  const firstOf = (stream: number) => later.find((event): event is LightEvent => event.type === 'light' && event.stream === stream);
+  const keep = connection.onEvent;
+  return new Promise((resolve) => {
+    const settle = () => {
+      clearTimeout(timer);
+      connection.onEvent = keep;
+      const lights = streams.map(firstOf).filter((event) => event !== undefined);
+      for (const light of lights) later.splice(later.indexOf(light), 1);
+      resolve(lights);
+    };
+    const timer = setTimeout(settle, LIGHT_PATIENCE);
+    const settleWhenThere = () => streams.every(firstOf) && settle();
+    connection.onEvent = (event) => {
+      keep(event);
+      settleWhenThere();
+    };
+    settleWhenThere();
   });
 }
 

@@ -28,23 +28,29 @@ interface Fresh {
   end: number;
 }
 
-/** The way to the mesh's next state: index ranges and, once it is whole, the number of faces. */
+/** A picture with more faces than this times those of the last one is shown in between. */
+const GROWTH = 2;
+
+/** The way to the mesh's next state: vertices, index ranges and, once it is whole, the number of faces. */
 interface Batch {
+  fresh: Fresh[];
   ranges: RangeEvent[];
   faces: number | null;
 }
 
 /**
- * A mesh that grows in place. Its geometry has buffers of the final sizes; new vertices are handed over as they come, then
- * the faces that use them, and only then does the geometry draw these.
+ * A mesh that grows in place, step by step. Its geometry has buffers of the final sizes; a step hands over new vertices, then
+ * the faces that use them, and only then does the geometry draw these. A step at most doubles the faces, however much has come:
+ * so the picture grows finer all the time.
  */
 export class MeshRefinement implements Refinement {
   readonly geometry = new BufferGeometry();
   readonly #attributes: BufferAttribute[];
   readonly #index: HalfBuffers;
   readonly #finalFaces: number;
-  #fresh: Fresh[] = [];
   #batches: Batch[] = [];
+  /** The batches of the present step. */
+  #step: Batch[] = [];
   #faces = 0;
   #consumed = 0;
 
@@ -65,13 +71,16 @@ export class MeshRefinement implements Refinement {
     // Creating a buffer hands over everything, but three.js leaves the ranges standing.
     for (const attribute of [...this.#attributes, this.#index.attribute])
       attribute.onUpload(() => attribute.clearUpdateRanges());
+    this.#faces = baseIndices.length / 3;
     this.geometry.setDrawRange(0, baseIndices.length);
     this.geometry.boundingBox = bounds.clone();
     this.geometry.boundingSphere = bounds.getBoundingSphere(new Sphere());
   }
 
   get pending(): boolean {
-    return this.#fresh.length > 0 || this.#index.sweeping || this.#wholeBatch;
+    const [next] = this.#batches;
+    const waiting = next !== undefined && (next.faces !== null || next.fresh.length > 0);
+    return this.#step.length > 0 || this.#index.sweeping || waiting;
   }
 
   /** Whether the final mesh is drawn. */
@@ -86,13 +95,15 @@ export class MeshRefinement implements Refinement {
   }
 
   /**
-   * A sweep over the indices, once begun, goes first: it ends in a finer picture. Vertices that come meanwhile wait, so that
-   * the next sweep, which costs the same for few new faces as for many, has many.
+   * Batches that come during a step wait, so that the next sweep, which costs the same for few new faces as for many, has many.
+   * Between steps the vertices of a batch go ahead of its end: the sender may wait for them to be consumed before it sends that.
    */
   advance(budget: UploadBudget): boolean {
     if (!this.#index.sweeping) {
-      this.#advanceVertices(budget);
-      if (this.#fresh.length > 0 || !this.#beginSweep()) return false;
+      if (this.#step.length === 0) this.#beginStep();
+      const whole = this.#step.length > 0;
+      if (!this.#advanceVertices(whole ? this.#step : this.#batches, budget) || !whole) return false;
+      this.#beginSweep();
     }
     if (!this.#index.advance(budget)) return false;
     this.geometry.setDrawRange(this.#index.start, 3 * this.#faces);
@@ -117,7 +128,7 @@ export class MeshRefinement implements Refinement {
     const { buffer, byteOffset, BYTES_PER_ELEMENT } = attribute.array;
     new Uint8Array(buffer, byteOffset).set(event.data, event.offset);
     const begin = event.offset / BYTES_PER_ELEMENT;
-    this.#fresh.push({ attribute, begin, end: begin + event.data.length / BYTES_PER_ELEMENT });
+    this.#openBatch().fresh.push({ attribute, begin, end: begin + event.data.length / BYTES_PER_ELEMENT });
   }
 
   /** Consumed as they come, so that a batch of any size comes whole; vertices keep the sender from running ahead. */
@@ -126,43 +137,54 @@ export class MeshRefinement implements Refinement {
     this.#openBatch().ranges.push(event);
   }
 
-  get #wholeBatch(): boolean {
-    return this.#batches.length > 0 && this.#batches[0]!.faces !== null;
+  /** How many batches are whole and do not lead beyond so many faces; the first one may. */
+  #wholeBatches(mostFaces: number): number {
+    let count = 0;
+    for (const { faces } of this.#batches) {
+      if (faces === null || (count > 0 && faces > mostFaces)) break;
+      count++;
+    }
+    return count;
   }
 
   #openBatch(): Batch {
     const last = this.#batches.at(-1);
     if (last !== undefined && last.faces === null) return last;
-    const batch: Batch = { ranges: [], faces: null };
+    const batch: Batch = { fresh: [], ranges: [], faces: null };
     this.#batches.push(batch);
     return batch;
   }
 
-  #advanceVertices(budget: UploadBudget): void {
-    while (this.#fresh.length > 0) {
-      const { attribute, begin, end } = this.#fresh[0]!;
-      const size = attribute.array.BYTES_PER_ELEMENT;
-      const count = Math.min(end - begin, Math.floor(budget.left / size));
-      if (count === 0 || !budget.take(count * size)) return;
-      attribute.addUpdateRange(begin, count);
-      attribute.needsUpdate = true;
-      this.#consumed += count * size;
-      if (begin + count === end) this.#fresh.shift();
-      else this.#fresh[0]!.begin += count;
-    }
+  #beginStep(): void {
+    this.#step = this.#batches.splice(0, this.#wholeBatches(GROWTH * this.#faces));
   }
 
-  /** Puts all whole batches into the hidden half of the indices. */
-  #beginSweep(): boolean {
-    if (!this.#wholeBatch) return false;
-    this.#index.begin();
-    for (let batch = this.#batches[0]; batch !== undefined && batch.faces !== null; batch = this.#batches[0]) {
-      this.#faces = batch.faces;
-      for (const { offset, data } of batch.ranges)
-        this.#index.write(offset / 4, new Uint32Array(data.buffer, data.byteOffset, data.length / 4));
-      this.#batches.shift();
+  /** Hands vertices over; true when all have gone. */
+  #advanceVertices(batches: Batch[], budget: UploadBudget): boolean {
+    for (const { fresh } of batches) {
+      for (let next = fresh[0]; next !== undefined; next = fresh[0]) {
+        const size = next.attribute.array.BYTES_PER_ELEMENT;
+        const count = Math.min(next.end - next.begin, Math.floor(budget.left / size));
+        if (count === 0 || !budget.take(count * size)) return false;
+        next.attribute.addUpdateRange(next.begin, count);
+        next.attribute.needsUpdate = true;
+        this.#consumed += count * size;
+        next.begin += count;
+        if (next.begin === next.end) fresh.shift();
+      }
     }
     return true;
+  }
+
+  /** Puts the step's faces into the hidden half of the indices. */
+  #beginSweep(): void {
+    this.#index.begin();
+    for (const { ranges, faces } of this.#step) {
+      this.#faces = faces!;
+      for (const { offset, data } of ranges)
+        this.#index.write(offset / 4, new Uint32Array(data.buffer, data.byteOffset, data.length / 4));
+    }
+    this.#step = [];
   }
 }
 

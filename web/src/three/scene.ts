@@ -13,7 +13,17 @@ import {
   type WebGLRenderer,
 } from 'three';
 import type { PackConnection } from '../core/connection.js';
-import type { ConnectionEvent, FailureEvent, MeshEvent, PackEvent, Progress, Strategy } from '../core/protocol.js';
+import {
+  type ConnectionEvent,
+  type FailureEvent,
+  type LightEvent,
+  type MeshEvent,
+  type PackEvent,
+  type Progress,
+  type Strategy,
+  type UpdateEvent,
+  payload,
+} from '../core/protocol.js';
 import { LightwellLight } from './light.js';
 import { LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp } from './lamps.js';
@@ -61,12 +71,14 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #images: Map<number, TextureRefinement>;
   readonly #lights = new Map<number, LightRefinement>();
   #frame = -1;
+  #pending = false;
   #received = false;
   #complete = false;
 
   private constructor(
     opening: Opening,
     images: Map<number, TextureRefinement>,
+    lights: LightEvent[],
     connection: PackConnection,
     renderer: WebGLRenderer,
     options: SceneOptions,
@@ -82,17 +94,27 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.bounds = finalBounds(opening);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
     this.grids = (opening.extensions.LIGHTWELL_light_grids?.grids ?? []).map((grid) => new LightwellLight(grid));
-    for (const grid of this.grids) this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer));
+    for (const grid of this.grids) {
+      const { stream } = grid.definition;
+      const first = lights.find((light) => light.stream === stream);
+      this.#lights.set(stream, new LightRefinement(grid, renderer, first));
+    }
     this.lamps = this.#createLamps();
     this.add(...this.grids, ...this.lamps);
   }
 
-  /** Prepares what the loader read; events of the connection go to `receive` from then on. */
-  static async create(opening: Opening, connection: PackConnection, renderer: WebGLRenderer, options: SceneOptions) {
+  /** Prepares what the loader read, with the first state of its lights; later events of the connection go to `receive`. */
+  static async create(
+    opening: Opening,
+    lights: LightEvent[],
+    connection: PackConnection,
+    renderer: WebGLRenderer,
+    options: SceneOptions,
+  ) {
     const images = new Map<number, TextureRefinement>();
     for (const [stream, { extension, textures }] of opening.images)
       images.set(stream, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
-    return new LightwellScene(opening, images, connection, renderer, options);
+    return new LightwellScene(opening, images, lights, connection, renderer, options);
   }
 
   setStrategy(strategy: Strategy): void {
@@ -137,13 +159,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
         return this.#startMesh(event);
       case 'range':
       case 'draw':
-        this.#meshes.get(event.stream)?.receive(event);
-        return this.#changed();
+        return this.#refineBy(event, this.#meshes.get(event.stream));
       case 'light':
-        this.#lights.get(event.stream)?.receive(event);
-        return this.#changed();
+        return this.#refineBy(event, this.#lights.get(event.stream));
       case 'texture':
-        return void this.#images.get(event.stream)?.receive(event, () => this.#changed());
+        return this.#refineBy(event, this.#images.get(event.stream));
       case 'progress':
         return void this.dispatchEvent({ type: 'progress', progress: event.progress });
       case 'connection':
@@ -161,27 +181,26 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   override updateMatrixWorld(force?: boolean): void {
     super.updateMatrixWorld(force);
     const frame = this.#renderer.info.render.frame;
-    if (frame === this.#frame) return;
+    if (frame !== this.#frame) this.#refine();
     this.#frame = frame;
-    this.#refine();
+    // In every case: a frame whose matrices were brought up to date before it began brings nothing, and asks for the next one.
+    if (this.#pending) this.#changed();
   }
 
   #refine(): void {
     const budget = new UploadBudget();
     let consumed = 0;
-    let pending = false;
+    this.#pending = false;
     for (const refinement of this.#refinements()) {
       const changed = refinement.advance(budget);
       if (changed && refinement instanceof MeshRefinement) this.#onGeometry(refinement);
       consumed += refinement.takeConsumed();
-      pending ||= refinement.pending;
+      this.#pending ||= refinement.pending;
     }
     if (consumed > 0) this.#connection.consumed(consumed);
-    if (pending) this.#changed();
-    else if (this.#received && !this.#complete) {
-      this.#complete = true;
-      this.dispatchEvent({ type: 'complete' });
-    }
+    if (this.#pending || !this.#received || this.#complete) return;
+    this.#complete = true;
+    this.dispatchEvent({ type: 'complete' });
   }
 
   #onGeometry(refinement: MeshRefinement): void {
@@ -196,6 +215,13 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     yield* this.#lights.values();
     yield* this.#meshes.values();
     yield* this.#images.values();
+  }
+
+  /** Bytes that nothing in the scene shows are done with: the sender would wait for them. */
+  #refineBy<Event extends UpdateEvent>(event: Event, refinement: { receive(event: Event): void } | undefined): void {
+    if (refinement !== undefined) refinement.receive(event);
+    else this.#connection.consumed(payload(event)?.byteLength ?? 0);
+    this.#changed();
   }
 
   #startMesh(layout: MeshEvent): void {

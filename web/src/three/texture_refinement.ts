@@ -17,6 +17,7 @@ export class TextureRefinement implements Refinement {
   readonly #width: number;
   readonly #height: number;
   #image: ImageBitmap | null = null;
+  #decoding = false;
   #bytes = 0;
   #row = 0;
   #consumed = 0;
@@ -43,16 +44,18 @@ export class TextureRefinement implements Refinement {
   }
 
   get pending(): boolean {
-    return this.#image !== null && this.#row < this.#height;
+    return this.#decoding || (this.#image !== null && this.#row < this.#height);
   }
 
-  /** Decodes the image; `ready` is called when strips can be handed over. */
-  async receive(event: TextureEvent, ready: () => void): Promise<void> {
-    const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType }));
-    if (this.#disposed) return image.close();
+  /** Decodes the image. The preview stays when the browser cannot read it. */
+  async receive(event: TextureEvent): Promise<void> {
+    this.#decoding = true;
+    const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType })).catch(() => null);
+    this.#decoding = false;
+    if (this.#disposed) return image?.close();
+    if (image === null) this.#consumed += event.file.byteLength;
     this.#image = image;
     this.#bytes = event.file.byteLength;
-    ready();
   }
 
   advance(budget: UploadBudget): boolean {
