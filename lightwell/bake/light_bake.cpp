@@ -106,7 +106,7 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   }
   const auto start = std::chrono::steady_clock::now();
   LightGrid grid;
-  grid.shape = GridShape::over(scene.bounds(), options.nodes);
+  grid.shape = GridShape::over(scene.lights().region(), options.nodes);
   Solids solids(scene);
   const Worker traced = trace_photons(scene, solids, grid.shape, options, progress);
   if (progress.cancelled()) return fail("light", "cancelled");

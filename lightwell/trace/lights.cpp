@@ -32,12 +32,23 @@ float range_window(const Lamp& lamp, float distance) {
   return std::max(0.0f, 1 - x * x * x * x);
 }
 
+/// Of the scene's longest side: a cell or so of the usual grid.
+constexpr float open_margin = 0.04f;
+
 }  // namespace
 
 Lights::Lights(const TraceScene& scene)
-    : scene_(scene), first_element_(scene.scene().instances.size(), -1), environment_(scene.scene().environment) {
-  center_ = scene.bounds().center();
-  radius_ = length(scene.bounds().size()) / 2;
+    : scene_(scene),
+      region_(scene.bounds()),
+      first_element_(scene.scene().instances.size(), -1),
+      environment_(scene.scene().environment) {
+  if (!environment_.black()) {
+    const auto margin = Vec3f::filled(open_margin * max_component(region_.size()));
+    region_.lo -= margin;
+    region_.hi += margin;
+  }
+  center_ = region_.center();
+  radius_ = length(region_.size()) / 2;
   for (size_t i = 0; i < scene.scene().lamps.size(); i++) add_lamp(static_cast<int>(i));
   for (uint32_t i = 0; i < first_element_.size(); i++) {
     if (scene.traced(i) && max_component(scene.material(i).emission) > 0) add_surface(i);

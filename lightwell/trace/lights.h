@@ -67,6 +67,9 @@ class Lights {
   const EnvironmentLight& environment() const { return environment_; }
   /// The density with which sample() chooses a direction of the environment.
   float environment_density(const Vec3f& direction) const;
+  /// Where photons carry all of the light: the scene's box, and when the environment shines some of the open air around
+  /// it, so that a grid has nodes before the outsides of walls.
+  const Box3f& region() const { return region_; }
   /// The environment's index among the luminaires; only when it is not black.
   int environment_luminaire() const { return elements_[static_cast<size_t>(environment_element_)].luminaire; }
 
@@ -102,7 +105,8 @@ class Lights {
   Arrival sample_environment(Random& random) const;
 
   const TraceScene& scene_;
-  Vec3f center_{};  // of the sphere round the scene
+  Box3f region_;
+  Vec3f center_{};  // of the sphere round the region
   float radius_ = 0;
   std::vector<Luminaire> luminaires_;
   std::vector<Element> elements_;

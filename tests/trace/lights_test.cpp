@@ -132,7 +132,7 @@ TEST(Lights, EmitTheirPower) {
     const Lights::Emission emission = lights.emit(random);
     flux[static_cast<size_t>(emission.luminaire)] += static_cast<double>(emission.flux[0]) / count;
   }
-  const float radius = length(trace->bounds().size()) / 2;
+  const float radius = length(lights.region().size()) / 2;
   EXPECT_NEAR(lights.luminaires()[2].power[0], 0.3f * pi * radius * radius, 1e-2f);
   EXPECT_NEAR(lights.luminaires()[3].power[0], 2 * 2 * pi, 1e-4f);
   // Each is chosen by about a fifth of the photons or more: 4 / sqrt(40000) = 2 %, and the spot's edge scatters a
