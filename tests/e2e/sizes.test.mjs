@@ -4,8 +4,11 @@ import { execFileSync } from 'node:child_process';
 import { test } from 'node:test';
 import { WEB } from './dependencies.mjs';
 
-/** Bytes in brotli. Nothing may grow beyond these; 60,000 and 180,000 are what is aimed at. */
-const LIMITS = { withoutThree: 66_000, whole: 200_000 };
+/**
+ * Bytes in brotli. Nothing may grow beyond these, what was reached without wasm-opt; 60,000 and 180,000 are aimed at
+ * (docs/decisions/008-size-of-the-page.md).
+ */
+const LIMITS = { withoutThree: 65_500, whole: 199_000 };
 
 test('the page stays small', () => {
   const sizes = JSON.parse(execFileSync('node', [`${WEB}sizes.mjs`, '--json'], { encoding: 'utf8' }));
