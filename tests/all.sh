@@ -33,15 +33,30 @@ sanitizers() {
   LIGHTWELL_TEST_SCALE=10 ctest --test-dir build/sanitize --output-on-failure --parallel 2 >&2
 }
 
+# What the fuzzer starts from: real files, and a client's script (fuzz/client_fuzz.cpp) that answers with a whole pack.
+plant_seeds() {
+  local seeds=build/fuzz/corpus pack=build/fuzz/corpus/pack_fuzz/sample
+  mkdir -p $seeds/{pack,client,gltf}_fuzz
+  build/sanitize/bin/sample_pack $pack 200
+  python3 - $pack >$seeds/client_fuzz/sample <<'PYTHON'
+import sys
+pack = open(sys.argv[1], 'rb').read()[:65535]
+respond, receive, wait = b'\0\0\0', b'\x08' + len(pack).to_bytes(2, 'little') + pack, b'\x07\0\0'
+sys.stdout.buffer.write(respond + receive + 200 * wait)
+PYTHON
+  cp tests/data/truth/*.glb $seeds/gltf_fuzz
+}
+
 fuzz() {
   build_with_sanitizers
+  plant_seeds
   say "Fuzzing for $fuzz_seconds seconds"
   local targets=(build/sanitize/bin/*_fuzz) target name corpus
   for target in "${targets[@]}"; do
     name=$(basename "$target")
     corpus=build/fuzz/corpus/$name
     mkdir -p "$corpus"
-    "$target" -max_total_time=$((fuzz_seconds / ${#targets[@]})) -rss_limit_mb=2048 -timeout=20 -verbosity=0 \
+    "$target" -max_total_time=$((fuzz_seconds / ${#targets[@]})) -rss_limit_mb=2048 -timeout=20 -max_len=65536 -verbosity=0 \
       -artifact_prefix="build/fuzz/$name-" "$corpus" >&2
   done
 }
