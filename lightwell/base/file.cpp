@@ -84,6 +84,16 @@ Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
 Result<void> write_file(const std::filesystem::path& path,
                         const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
   if (path == "-") return write_all(stdout, fill);
+  // A device or a pipe is written to; only a regular file is replaced.
+  std::error_code unknown;
+  const auto kind = std::filesystem::status(path, unknown).type();
+  if (kind == std::filesystem::file_type::directory) return fail({path.string(), "", "is a folder"});
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found) {
+    const File device(std::fopen(path.c_str(), "wb"));
+    if (!device) return fail({path.string(), "", reason(errno)});
+    auto outcome = write_all(device.get(), fill);
+    return outcome ? outcome : Result<void>(fail(in_file(outcome.error(), path.string())));
+  }
   const std::filesystem::path temporary = path.string() + ".part" + std::to_string(getpid());
   Result<void> written;
   {

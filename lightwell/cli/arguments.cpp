@@ -42,6 +42,7 @@ CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& val
           [&value, name](const std::string& text) {
             auto count = parse_count(text);
             if (!count) throw CLI::ValidationError(name, count.error().message());
+            if (*count == 0) throw CLI::ValidationError(name, "must be at least 1");
             value = *count;
           },
           help)

@@ -108,6 +108,12 @@ TEST(File, IsWrittenAsAWholeOrNotAtAll) {
   std::filesystem::remove(path);
   EXPECT_FALSE(read_file(path));
   EXPECT_FALSE(read_file(std::filesystem::path(testing::TempDir())));
+  EXPECT_FALSE(write_file(testing::TempDir(), as_bytes("a folder")));
+}
+
+TEST(File, ThatIsADeviceIsWrittenToAndNotReplaced) {
+  EXPECT_TRUE(write_file("/dev/null", as_bytes("nothing")));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ TEST_F(Commands, HelpNamesEveryCommandAndGivesExamples) {
 
 TEST_F(Commands, BadUsageIsTwo) {
   for (const char* arguments : {"", "nonsense", "bake", "bake box-small", "bake box-small -o x --grid 1", "scenes box",
-                                "bake box-small -o x --photons many", "render box-small -o x.png --size 0x5"}) {
+                                "bake box-small -o x --photons many", "bake box-small -o x --photons 0",
+                                "render box-small -o x.png --size 0x5"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -193,13 +194,15 @@ TEST_F(Commands, RenderProbeAndDiffAgree) {
 
 // In a furnace of albedo rho and emission Le every point receives pi Le rho / (1 - rho) of bounced light: pi here.
 TEST_F(Commands, ProbeMeasuresTheFurnace) {
-  write("points.csv", "x,y,z,nx,ny,nz\n0,1,0,0,1,0\n0.2,0.9,0.3,1,0,0\n-0.3,1.1,0.1,0.6,0,-0.8\n");
+  write("points.csv", "x,y,z,nx,ny,nz\n1,1,1,0,1,0\n0.7,0.6,1.3,1,0,0\n1.2,1.1,0.4,0.6,0,-0.8\n");
   for (const std::string integrator : {"path --spp 400", "ivg --photons 2M --grid 8"}) {
     const Outcome outcome =
         run("probe furnace --json --quiet --points " + path("points.csv") + " --integrator " + integrator);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     // Four standard errors of 400 paths of relative deviation 0.8; the grid's noise is below that.
-    for (const json& point : json::parse(outcome.out)["points"])
+    const json figures = json::parse(outcome.out);
+    ASSERT_EQ(figures["points"].size(), 3u);
+    for (const json& point : figures["points"])
       for (const json& channel : point["rgb"])
         EXPECT_NEAR(channel.get<double>(), 3.14159, 0.16 * 3.14159) << integrator;
   }
