@@ -6,8 +6,9 @@ find_program(LIGHTWELL_WASM_CXX clang++-19 REQUIRED)
 
 set(wasm_folder ${CMAKE_BINARY_DIR}/wasm)
 set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
-# For size: 49.8 KB in brotli, 48.2 where binaryen is installed, whose wasm-opt clang calls by itself. With -O2 for base, mesh and light it is 56.7 KB, and a pack of 400 k triangles is decoded in 0.43
-# instead of 0.54 s of CPU time, in a worker, while its bytes take longer to come.
+# For size: 49.8 KB in brotli, 48.2 where binaryen is installed, whose wasm-opt clang calls by itself. With -O2 for base, mesh
+# and light it is 56.7 KB, and a pack of 400 k triangles is decoded in 0.43 instead of 0.54 s of CPU time, in a worker, while
+# its bytes take longer to come.
 set(wasm_flags --target=wasm32-wasi -std=c++20 -Oz -flto -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
   -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
   -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
@@ -20,17 +21,23 @@ find_path(LIGHTWELL_EXPECTED_INCLUDE tl/expected.hpp REQUIRED)
 file(MAKE_DIRECTORY ${wasm_folder}/include ${CMAKE_BINARY_DIR}/lib)
 file(CREATE_LINK ${LIGHTWELL_EXPECTED_INCLUDE}/tl ${wasm_folder}/include/tl SYMBOLIC)
 
+# lightwell_wasm_objects(OUT sources...): compiles these sources, each once in the project, and returns their objects.
+function(lightwell_wasm_objects out)
+  set(objects "")
+  foreach(source ${ARGN})
+    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} ${source})
+    string(REPLACE "/" "_" name ${name})
+    set(object ${wasm_folder}/${name}.o)
+    add_custom_command(OUTPUT ${object}
+      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} -MD -MF ${object}.d -c ${source} -o ${object}
+      DEPENDS ${source} DEPFILE ${object}.d COMMENT "Building WebAssembly object ${name}.o" VERBATIM)
+    list(APPEND objects ${object})
+  endforeach()
+  set(${out} ${objects} PARENT_SCOPE)
+endfunction()
+
 lightwell_client_sources(wasm_sources base mesh light texture pack client)
-set(wasm_objects "")
-foreach(source ${wasm_sources})
-  file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/lightwell ${source})
-  string(REPLACE "/" "_" name ${name})
-  set(object ${wasm_folder}/${name}.o)
-  add_custom_command(OUTPUT ${object}
-    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${LIGHTWELL_WASM_CXX} ${wasm_flags} -MD -MF ${object}.d -c ${source} -o ${object}
-    DEPENDS ${source} DEPFILE ${object}.d COMMENT "Building WebAssembly object ${name}.o" VERBATIM)
-  list(APPEND wasm_objects ${object})
-endforeach()
+lightwell_wasm_objects(wasm_objects ${wasm_sources})
 add_custom_command(OUTPUT ${wasm_module}
   COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Oz -flto -Wl,--gc-sections -Wl,--strip-all
           ${wasm_objects} -o ${wasm_module}
