@@ -88,11 +88,13 @@ class Client::Machine {
     if (!contained) give_up({FailureUpdate::Reason::unreadable, contained.error().message()});
   }
 
+  /// What the opening itself holds of a light is there to be handed over at once, however much waits to be decoded.
   void open_refiner() {
     const uint32_t stream = static_cast<uint32_t>(refiners_.size());
     auto refiner = make_refiner(download_.directory(), stream, glb_chunks(download_.opening()).bin, options_.fill);
     if (!refiner) return give_up({FailureUpdate::Reason::unreadable, refiner.error().message()});
     refiners_.push_back(std::move(*refiner));
+    refiners_.back()->settle();
   }
 
   /// Decodes a block of the next stream, in turns, that has one and takes one.

@@ -55,7 +55,8 @@ struct DrawUpdate {
   uint32_t faces = 0;
 };
 
-/// A light grid as a whole, as the half-float RGBA texture of light/atlas.h.
+/// A light grid as a whole, as the half-float RGBA texture of light/atlas.h. The eight corner nodes come with the
+/// opening: who calls take() after each work() has light, of these alone, before any block is decoded.
 struct LightUpdate {
   uint32_t stream = 0;
   uint32_t width = 0;

@@ -24,19 +24,27 @@ const camera = new PerspectiveCamera(45, innerWidth / innerHeight, 0.01 * radius
 camera.position.copy(center).add(new Vector3(0, 0, 0.95 * size.z));
 camera.lookAt(center);
 
+let place = 0.5;
+let request = 0;
+
 /** Puts the knot at a place across the room, 0 left ... 1 right, and draws. */
 function draw(place: number): void {
+  request = 0;
   knot.position.copy(center);
   knot.position.x = room.bounds.min.x + (0.15 + 0.7 * place) * size.x;
   renderer.render(scene, camera);
 }
 
-let place = 0.5;
-room.addEventListener('change', () => requestAnimationFrame(() => draw(place)));
+/** Asks for one frame, however much has changed. */
+function invalidate(): void {
+  if (request === 0) request = requestAnimationFrame(() => draw(place));
+}
+
+room.addEventListener('change', invalidate);
 room.addEventListener('complete', () => (document.title = 'complete'));
 addEventListener('pointermove', (event) => {
   place = event.clientX / innerWidth;
-  requestAnimationFrame(() => draw(place));
+  invalidate();
 });
 draw(place);
 

@@ -15,7 +15,7 @@ import type { LightGridDefinition } from './extensions.js';
 import { installLightChunks } from './shader_chunks.js';
 
 /** Seven RGBA texels hold the nine RGB coefficients of a node and its weight. */
-export const SUB_VOLUMES = 7;
+const SUB_VOLUMES = 7;
 const HALF_ONE = 0x3c00;
 
 /**
@@ -26,7 +26,8 @@ const HALF_ONE = 0x3c00;
 export class LightwellLight extends Light {
   override readonly type = 'LightwellLight';
   readonly isLightProbeGrid = true;
-  readonly texture: Data3DTexture;
+  /** The texels of lightwell/light/atlas.h that are shown; another one with every finer state. */
+  texture: Data3DTexture;
   /** Not a box: `min` is the world position of the first node, `max` the vector part of the grid's rotation. */
   readonly boundingBox = new Box3();
   /** Not counts: the size of the grid in the world, z negated as the mark of Lightwell's grids. */
@@ -44,11 +45,7 @@ export class LightwellLight extends Light {
     this.priority = definition.priority ?? 0;
     this.#corner = new Matrix4().makeTranslation(...min);
     this.#size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
-    this.texture = new Data3DTexture(darkAtlas(definition), nodes[0], nodes[1], SUB_VOLUMES * (nodes[2] + 2));
-    this.texture.format = RGBAFormat;
-    this.texture.type = HalfFloatType;
-    this.texture.minFilter = this.texture.magFilter = LinearFilter;
-    this.texture.needsUpdate = true;
+    this.texture = atlasTexture(darkAtlas(definition), definition);
   }
 
   /** Replaces the whole light in one frame: the texels of lightwell/light/atlas.h in their patched form. */
@@ -70,6 +67,16 @@ export class LightwellLight extends Light {
   override dispose(): void {
     this.texture.dispose();
   }
+}
+
+/** A filtered texture of a grid's texels. */
+export function atlasTexture(atlas: Uint16Array<ArrayBuffer>, { nodes }: LightGridDefinition): Data3DTexture {
+  const texture = new Data3DTexture(atlas, nodes[0], nodes[1], SUB_VOLUMES * (nodes[2] + 2));
+  texture.format = RGBAFormat;
+  texture.type = HalfFloatType;
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
 }
 
 /**

@@ -1,42 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Data3DTexture, Vector3, type WebGLRenderer } from 'three';
+import { Box3, type Data3DTexture, Vector3, type WebGLRenderer } from 'three';
 import type { LightEvent } from '../core/protocol.js';
-import { type LightwellLight, markContents, SUB_VOLUMES } from './light.js';
+import { atlasTexture, type LightwellLight, markContents } from './light.js';
 import type { Refinement } from './refinement.js';
-import { BYTES_PER_FRAME, type UploadBudget } from './upload_budget.js';
+import { RowSweep } from './row_sweep.js';
+import type { UploadBudget } from './upload_budget.js';
 
 const TEXEL_BYTES = 8;
 
-/** Rows y ... y + rows of all nodes of a layer. */
-interface Band {
-  y: number;
-  rows: number;
-  z: number;
-}
-
 /**
- * A light grid that grows brighter and finer in place. A new state is handed over in bands; a band is all that a layer's rows
- * hold, in all seven sub-volumes, in one frame: a mixture of an old and a new state of one node would flash.
+ * A light grid that grows finer as a whole. One texture is shown while a newer state goes to another, over as many frames as
+ * it takes; then they change places. So a frame never shows a grid between two states.
  */
 export class LightRefinement implements Refinement {
   readonly #light: LightwellLight;
   readonly #renderer: WebGLRenderer;
-  readonly #bands: Band[];
+  readonly #sweep: RowSweep;
+  #hidden: Data3DTexture;
+  /** The state that is on its way to the hidden texture. */
   #current: Data3DTexture | null = null;
   #waiting: Uint16Array<ArrayBuffer> | null = null;
-  #next = 0;
   #consumed = 0;
 
-  /** `first` is a state that is there from the first frame on. */
-  constructor(light: LightwellLight, renderer: WebGLRenderer, first?: LightEvent) {
+  /** `first` is the state of the first frame. */
+  constructor(light: LightwellLight, renderer: WebGLRenderer, first: LightEvent) {
     this.#light = light;
     this.#renderer = renderer;
-    this.#bands = bandsOf(light.definition.nodes);
-    if (first !== undefined) {
-      light.setAtlas(this.#atlasOf(first));
-      this.#consumed = first.atlas.byteLength;
-    }
-    renderer.initTexture(light.texture);
+    light.setAtlas(this.#atlasOf(first));
+    this.#consumed = first.atlas.byteLength;
+    this.#hidden = atlasTexture(light.texture.image.data as Uint16Array<ArrayBuffer>, light.definition);
+    const { width, height, depth } = light.texture.image;
+    this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
+    for (const texture of [light.texture, this.#hidden]) renderer.initTexture(texture);
   }
 
   get pending(): boolean {
@@ -46,21 +41,20 @@ export class LightRefinement implements Refinement {
   /** A newer state takes the place of one that has not begun to be handed over. */
   receive(event: LightEvent): void {
     this.#consumed += this.#waiting?.byteLength ?? 0;
-    this.#waiting = markContents(this.#atlasOf(event), this.#light.definition);
+    this.#waiting = this.#atlasOf(event);
   }
 
   advance(budget: UploadBudget): boolean {
     this.#current ??= this.#begin();
     if (this.#current === null) return false;
-    let changed = false;
-    for (; this.#next < this.#bands.length; this.#next++) {
-      const pieces = this.#pieces(this.#bands[this.#next]!);
-      if (!budget.take(pieces.reduce((sum, piece) => sum + bytesOf(piece), 0))) return changed;
-      for (const piece of pieces) this.#renderer.copyTextureToTexture(this.#current, this.#light.texture, piece, piece.min);
-      changed = true;
+    const { width } = this.#current.image;
+    for (let strip = this.#sweep.take(budget); strip !== null; strip = this.#sweep.take(budget)) {
+      const { slice, row, rows } = strip;
+      const piece = new Box3(new Vector3(0, row, slice), new Vector3(width, row + rows, slice + 1));
+      this.#renderer.copyTextureToTexture(this.#current, this.#hidden, piece, piece.min);
     }
-    this.#finish(this.#current);
-    return true;
+    if (this.#sweep.done) this.#show(this.#current);
+    return this.#current === null;
   }
 
   takeConsumed(): number {
@@ -70,10 +64,11 @@ export class LightRefinement implements Refinement {
   }
 
   restart(): void {
-    this.#next = 0;
+    this.#sweep.restart();
   }
 
   dispose(): void {
+    this.#hidden.dispose();
     this.#light.dispose();
   }
 
@@ -85,42 +80,20 @@ export class LightRefinement implements Refinement {
 
   #begin(): Data3DTexture | null {
     if (this.#waiting === null) return null;
-    const { width, height, depth } = this.#light.texture.image;
-    const state = new Data3DTexture(this.#waiting, width, height, depth);
+    const { definition } = this.#light;
+    const state = atlasTexture(markContents(this.#waiting, definition), definition);
     this.#waiting = null;
-    this.#next = 0;
+    this.#sweep.restart();
     return state;
   }
 
-  /** Keeps the state for the day on which the GPU loses it. */
-  #finish(state: Data3DTexture): void {
-    this.#light.texture.image.data = state.image.data;
+  /** Exchanges the textures; each keeps what it shows for the day on which the GPU loses it. */
+  #show(state: Data3DTexture): void {
+    const shown = this.#hidden;
+    this.#hidden = this.#light.texture;
+    this.#light.texture = shown;
+    shown.image.data = state.image.data;
     this.#consumed += (state.image.data as Uint16Array).byteLength;
     this.#current = null;
   }
-
-  /** The texels of a band in each sub-volume, and in the padding where the layer is the first or the last. */
-  #pieces({ y, rows, z }: Band): Box3[] {
-    const [width, , layers] = this.#light.definition.nodes;
-    const slices = [z + 1];
-    if (z === 0) slices.push(0);
-    if (z === layers - 1) slices.push(layers + 1);
-    const subVolumes = Array.from({ length: SUB_VOLUMES }, (_, i) => i * (layers + 2));
-    return subVolumes.flatMap((first) =>
-      slices.map((slice) => new Box3(new Vector3(0, y, first + slice), new Vector3(width, y + rows, first + slice + 1))),
-    );
-  }
-}
-
-function bandsOf([width, height, layers]: [number, number, number]): Band[] {
-  const rowBytes = 2 * SUB_VOLUMES * width * TEXEL_BYTES;
-  const rows = Math.max(1, Math.min(height, Math.floor(BYTES_PER_FRAME / rowBytes)));
-  const bands: Band[] = [];
-  for (let z = 0; z < layers; z++) for (let y = 0; y < height; y += rows) bands.push({ y, rows: Math.min(rows, height - y), z });
-  return bands;
-}
-
-function bytesOf(piece: Box3): number {
-  const size = piece.getSize(new Vector3());
-  return size.x * size.y * size.z * TEXEL_BYTES;
 }

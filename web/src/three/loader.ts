@@ -5,9 +5,6 @@ import type { LightEvent, PackEvent } from '../core/protocol.js';
 import { readOpening } from './opening.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
 
-/** The first state of the lights is waited for this long, in milliseconds. */
-const LIGHT_PATIENCE = 1000;
-
 export type LoaderOptions = ConnectionOptions & SceneOptions;
 
 /**
@@ -61,63 +58,64 @@ export class LightwellLoader extends Loader<LightwellScene> {
     if (renderer === null) throw new Error('LightwellLoader: call setRenderer before loading');
     const connection = new PackConnection(url, this.#options);
     try {
-      const { glb, later } = await receiveOpening(url, connection, onProgress);
+      const inbox = new Inbox(connection, onProgress);
+      const { glb } = await inbox.take((event) => event.type === 'opening');
       const opening = await readOpening(glb, this.manager);
-      const grids = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
-      const lights = await receiveLights(grids.map(({ stream }) => stream), connection, later);
+      // The first state of a light is made of the opening alone, so it is close behind. A picture without it would be black.
+      const lights: LightEvent[] = [];
+      for (const { stream } of opening.extensions.LIGHTWELL_light_grids?.grids ?? [])
+        lights.push(await inbox.take((event): event is LightEvent => event.type === 'light' && event.stream === stream));
       const scene = await LightwellScene.create(opening, lights, connection, renderer, this.#options);
-      setTimeout(() => {
-        later.forEach((event) => scene.receive(event));
-        connection.onEvent = (event) => scene.receive(event);
-      });
+      setTimeout(() => inbox.forward((event) => scene.receive(event)));
       return scene;
     } catch (error) {
       connection.close();
-      throw error;
+      throw new Error(`${url}: ${messageOf(error)}`);
     }
   }
 }
 
-/** Waits for the opening; what comes behind it is kept for the scene. */
-function receiveOpening(
-  url: string,
-  connection: PackConnection,
-  onProgress?: (event: globalThis.ProgressEvent) => void,
-): Promise<{ glb: ArrayBuffer; later: PackEvent[] }> {
-  const later: PackEvent[] = [];
-  return new Promise((resolve, reject) => {
+/** Keeps what a connection says until somebody wants it. */
+class Inbox {
+  readonly #connection: PackConnection;
+  readonly #events: PackEvent[] = [];
+  #look: () => void = () => {};
+
+  constructor(connection: PackConnection, onProgress?: (event: globalThis.ProgressEvent) => void) {
+    this.#connection = connection;
     connection.onEvent = (event) => {
-      if (event.type === 'opening') resolve({ glb: event.glb, later });
-      else if (event.type === 'failure') reject(new Error(`${url}: ${event.message}`));
-      else if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
-      later.push(event);
+      if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
+      this.#events.push(event);
+      this.#look();
     };
-  });
+  }
+
+  /** Takes the first event that is `wanted` out, after waiting for it; rejects when the connection fails instead. */
+  take<Event extends PackEvent>(wanted: (event: PackEvent) => event is Event): Promise<Event> {
+    return new Promise((resolve, reject) => {
+      this.#look = () => {
+        const event = this.#events.find(wanted);
+        const failure = this.#events.find((other) => other.type === 'failure');
+        if (event !== undefined) {
+          this.#events.splice(this.#events.indexOf(event), 1);
+          resolve(event);
+        } else if (failure !== undefined) reject(new Error(failure.message));
+        else return;
+        this.#look = () => {};
+      };
+      this.#look();
+    });
+  }
+
+  /** Gives away what is left, and from now on everything as it comes. */
+  forward(listener: (event: PackEvent) => void): void {
+    this.#events.splice(0).forEach(listener);
+    this.#connection.onEvent = listener;
+  }
 }
 
-/**
- * Takes the first state of each light out of what has come, after waiting for it a little: it lies close behind the opening, and
- * a first picture without it would be black.
- */
-function receiveLights(streams: number[], connection: PackConnection, later: PackEvent[]): Promise<LightEvent[]> {
-  const firstOf = (stream: number) => later.find((event): event is LightEvent => event.type === 'light' && event.stream === stream);
-  const keep = connection.onEvent;
-  return new Promise((resolve) => {
-    const settle = () => {
-      clearTimeout(timer);
-      connection.onEvent = keep;
-      const lights = streams.map(firstOf).filter((event) => event !== undefined);
-      for (const light of lights) later.splice(later.indexOf(light), 1);
-      resolve(lights);
-    };
-    const timer = setTimeout(settle, LIGHT_PATIENCE);
-    const settleWhenThere = () => streams.every(firstOf) && settle();
-    connection.onEvent = (event) => {
-      keep(event);
-      settleWhenThere();
-    };
-    settleWhenThere();
-  });
+function messageOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
 }
 
 function asProgressEvent({ done, total }: { done: number; total: number }): globalThis.ProgressEvent {

@@ -94,16 +94,12 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.bounds = finalBounds(opening);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
     this.grids = (opening.extensions.LIGHTWELL_light_grids?.grids ?? []).map((grid) => new LightwellLight(grid));
-    for (const grid of this.grids) {
-      const { stream } = grid.definition;
-      const first = lights.find((light) => light.stream === stream);
-      this.#lights.set(stream, new LightRefinement(grid, renderer, first));
-    }
+    this.grids.forEach((grid, i) => this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer, lights[i]!)));
     this.lamps = this.#createLamps();
     this.add(...this.grids, ...this.lamps);
   }
 
-  /** Prepares what the loader read, with the first state of its lights; later events of the connection go to `receive`. */
+  /** Prepares what the loader read, with the first state of each of its grids in their order; later events of the connection go to `receive`. */
   static async create(
     opening: Opening,
     lights: LightEvent[],

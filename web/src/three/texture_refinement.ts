@@ -2,6 +2,7 @@
 import { Box2, Texture, Vector2, type WebGLRenderer } from 'three';
 import type { TextureEvent } from '../core/protocol.js';
 import type { Refinement } from './refinement.js';
+import { RowSweep } from './row_sweep.js';
 import type { UploadBudget } from './upload_budget.js';
 
 /** As GLTFLoader reads images: no conversion of any kind. */
@@ -16,10 +17,10 @@ export class TextureRefinement implements Refinement {
   readonly #renderer: WebGLRenderer;
   readonly #width: number;
   readonly #height: number;
+  readonly #sweep: RowSweep;
   #image: ImageBitmap | null = null;
   #decoding = false;
   #bytes = 0;
-  #row = 0;
   #consumed = 0;
   #disposed = false;
 
@@ -28,6 +29,7 @@ export class TextureRefinement implements Refinement {
     this.#width = width;
     this.#height = height;
     this.#renderer = renderer;
+    this.#sweep = new RowSweep(4 * width * textures.length, height);
   }
 
   /** Enlarges the preview of the textures, which share one image, and gives it to the GPU. Sizes are those of the file. */
@@ -44,7 +46,7 @@ export class TextureRefinement implements Refinement {
   }
 
   get pending(): boolean {
-    return this.#decoding || (this.#image !== null && this.#row < this.#height);
+    return this.#decoding || (this.#image !== null && !this.#sweep.done);
   }
 
   /** Decodes the image. The preview stays when the browser cannot read it. */
@@ -59,19 +61,15 @@ export class TextureRefinement implements Refinement {
   }
 
   advance(budget: UploadBudget): boolean {
-    if (this.#image === null || !this.pending) return false;
-    const rowBytes = 4 * this.#width * this.#textures.length;
-    const rows = Math.min(this.#height - this.#row, Math.max(1, Math.floor(budget.left / rowBytes)));
-    if (!budget.take(rows * rowBytes)) return false;
-    const last = this.#row + rows === this.#height;
-    const strip = new Box2(new Vector2(0, this.#row), new Vector2(this.#width, this.#row + rows));
+    const strip = this.#image === null ? null : this.#sweep.take(budget);
+    if (strip === null) return false;
+    const area = new Box2(new Vector2(0, strip.row), new Vector2(this.#width, strip.row + strip.rows));
     for (const texture of this.#textures) {
-      texture.mipmapsAutoUpdate = last;
-      this.#renderer.copyTextureToTexture(new Texture(this.#image), texture, strip, strip.min);
+      texture.mipmapsAutoUpdate = this.#sweep.done;
+      this.#renderer.copyTextureToTexture(new Texture(this.#image), texture, area, area.min);
       texture.mipmapsAutoUpdate = true;
     }
-    this.#row += rows;
-    if (last) this.#finish();
+    if (this.#sweep.done) this.#finish();
     return true;
   }
 
@@ -82,7 +80,7 @@ export class TextureRefinement implements Refinement {
   }
 
   restart(): void {
-    if (this.pending) this.#row = 0;
+    if (this.pending) this.#sweep.restart();
   }
 
   dispose(): void {
