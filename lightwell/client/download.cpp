@@ -44,7 +44,8 @@ Result<uint64_t> Download::receive(Cursor& cursor, Bytes bytes) {
 std::pair<uint64_t, uint64_t> Download::wanted_head() const {
   if (head_.empty()) return {0, first_request_bytes};
   const uint64_t end = size_.needed + (size_.complete ? 0 : first_request_bytes);
-  return {head_.size(), std::min(end, size_.file_length)};
+  const bool length_known = size_.file_length != 0;
+  return {head_.size(), length_known ? std::min(end, size_.file_length) : end};
 }
 
 /// Appends what continues the head, up to what its own headers ask for, so that the bytes behind it are left for the

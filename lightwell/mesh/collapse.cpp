@@ -91,10 +91,11 @@ class Simplifier {
     return corrected;
   }
 
-  // A point that has lost its faces shows nothing and goes for free, onto a point near it on the Morton curve.
+  // A point that has lost its faces shows nothing and goes for free, onto a point near it on the Morton curve. It stays
+  // while both of these have too many faces to be split.
   CollapseState::Choice onto_neighbour_in_list(size_t i) const {
     for (const size_t j : {i - 1, i + 1})
-      if (j < live_.size() && !state_.removed(live_[j])) return {live_[j], 0, 0};
+      if (j < live_.size() && !state_.removed(live_[j]) && state_.can_be_split(live_[j])) return {live_[j], 0, 0};
     return {no_vertex, infinite, 0};
   }
 

@@ -28,6 +28,8 @@ class CollapseState {
   bool locked(uint32_t v) const { return locked_in_[v] == round_ || removed(v); }
   bool removed(uint32_t v) const { return order_.target[v] != v; }
   bool isolated(uint32_t v) const { return fan_[v] == 0; }
+  /// Whether a collapse onto v that brings no faces can be undone: its fan is not above max_fan.
+  bool can_be_split(uint32_t v) const { return fan_bound_[v] <= max_fan; }
 
   /// A lower bound of the cost of the cheapest collapse of v; 0 when it is isolated.
   float least_cost(uint32_t v);

@@ -103,6 +103,16 @@ TEST(Network, BodiesEndEarly) {
   expect_exact({.broken = 0.4}, 3);
 }
 
+// The headers that tell the lengths of the file, the opening and the directory lie in these bytes.
+TEST(Network, FirstBodyBreaksAnywhereInTheHeaders) {
+  const std::vector<uint8_t> file = sample_pack(sample_scene(100, 2));
+  const ReceivedScene whole = decode_directly(file);
+  for (size_t length = 0; length <= 100; length++) {
+    SimulatedNetwork network({.first_body_bytes = length}, 1, file);
+    EXPECT_TRUE(network.run({}, 60) == whole) << length << " bytes";
+  }
+}
+
 TEST(Network, ServerIsOverloaded) { expect_exact({.overloaded = 0.3}, 3); }
 
 TEST(Network, AnswersAreRepeated) { expect_exact({.repeated = 0.5}, 3); }

@@ -94,8 +94,12 @@ void SimulatedNetwork::send_body(uint32_t request, std::vector<uint8_t> body, do
   using Kind = Event::Kind;
   if (chance(weather_.corrupted))
     body[random_.below(static_cast<uint32_t>(body.size()))] ^= static_cast<uint8_t>(1u << random_.below(8));
-  const bool broken = chance(weather_.broken);
+  bool broken = chance(weather_.broken);
   if (broken || chance(weather_.truncated)) body.resize(random_.below(static_cast<uint32_t>(body.size())));
+  if (request == 1 && body.size() > weather_.first_body_bytes) {
+    broken = true;
+    body.resize(weather_.first_body_bytes);
+  }
   for (size_t at = 0; at < body.size(); at += piece_bytes) {
     const size_t end = std::min(body.size(), at + piece_bytes);
     line_free_ = std::max(line_free_, time) + static_cast<double>(end - at) / weather_.rate;

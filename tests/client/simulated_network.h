@@ -32,6 +32,7 @@ struct Weather {
   double gone_from = 1e9, gone_until = 1e9;  ///< no connection in this time
   double replaced_at = 1e9;                  ///< another file from then on
   size_t serves_bytes = SIZE_MAX;            ///< the file on the server is cut to this length
+  size_t first_body_bytes = SIZE_MAX;        ///< the first body breaks after so many
 };
 
 /// Runs a client against a server in bad weather, in simulated time.

@@ -184,6 +184,9 @@ inline std::vector<std::pair<std::string, Mesh>> nasty_meshes() {
   add("a book of three blades", book(3, 40));
   add("a book of seven blades", book(7, 12));
   add("an umbrella of 1000 faces", umbrella(1000));
+  Mesh crowded = umbrella(1000);  // the speck beside its tip loses its faces first, and has no other near place to go
+  append(crowded, scaled(triangle, 1e-3f, {{0, 1, 0}}));
+  add("an umbrella and a speck at its tip", crowded);
   add("a sphere with seams", seamed_sphere(24, 32));
   add("a faceted knot", faceted_torus(60, 9));
   add("a thousand pieces", scattered(1000, 1));
