@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A light stream of any bytes: the parameters, then payloads of a length byte's size times 16. Whatever is accepted can
-// be filled, looked up and put into an atlas.
-#include <cmath>
-
+// A light stream of any bytes as a case: the parameters, then the payloads. Whatever is accepted can be filled, looked
+// up and put into an atlas.
 #include "lightwell/base/assert.h"
 #include "lightwell/light/atlas.h"
 #include "lightwell/light/push_pull.h"
 #include "lightwell/light/stream.h"
+#include "tests/cases/case.h"
 
 using namespace lightwell;
 
@@ -26,23 +25,17 @@ void draw(const LightDecoder& decoder) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  ByteWriter writer;
-  LightLayout().write(writer);
-  const size_t parameters = writer.size();
-
-  const Bytes input(data, size);
-  const Bytes head = input.first(std::min(parameters, size));
-  const auto layout = LightLayout::read(head);
+  ByteReader reader({data, size});
+  const Case one = read_case(reader);
+  if (one.parts.empty()) return 0;
+  const auto layout = LightLayout::read(one.parts[0]);
   if (!layout || layout->shape.count() > most_nodes) return 0;
-  auto decoder = LightDecoder::open(head);
+  auto decoder = LightDecoder::open(one.parts[0]);
   LW_ASSERT(decoder);
   draw(*decoder);
-
-  ByteReader reader(input.subspan(parameters));
-  while (reader.remaining() > 0) {
-    const size_t length = std::min<size_t>(16 * size_t(reader.u8()), reader.remaining());
+  for (size_t i = 1; i < one.parts.size(); i++) {
     const size_t before = decoder->received();
-    if (!decoder->append(reader.take(length))) LW_ASSERT(decoder->received() == before);
+    if (!decoder->append(one.parts[i])) LW_ASSERT(decoder->received() == before);
   }
   draw(*decoder);
   return 0;

@@ -19,7 +19,7 @@
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
 #include "lightwell/texture/stream.h"
-#include "tests/wasm/cases.h"
+#include "tests/cases/case.h"
 
 using namespace lightwell;
 

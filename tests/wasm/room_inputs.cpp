@@ -1,104 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// room_inputs: writes the cases that room_digests reads to the standard output: what the encoders make of generated
-// light, meshes, images and packs, and damaged copies of it. A native program, since encoders are the baker's.
-#include <algorithm>
+// room_inputs: writes generated cases, and damaged copies of each, to the standard output for room_digests. A native
+// program, since encoders are the baker's.
 #include <cstdio>
 
-#include "lightwell/base/random.h"
-#include "lightwell/light/stream.h"
-#include "lightwell/mesh/base_places.h"
-#include "lightwell/mesh/progressive.h"
-#include "lightwell/texture/stream.h"
-#include "tests/client/sample_pack.h"
-#include "tests/light/light_fields.h"
-#include "tests/mesh/level.h"
-#include "tests/mesh/shapes.h"
-#include "tests/pack/pack_samples.h"
-#include "tests/wasm/cases.h"
+#include "tests/cases/generate.h"
 
 using namespace lightwell;
 
-namespace {
-
-constexpr uint64_t seed = 1;
-constexpr int damaged_copies = 4;
-
-Case light_case(const LightGrid& grid) {
-  const LightStream stream = encode_light(grid, {64, seed}).value();
-  ByteWriter parameters;
-  stream.layout.write(parameters);
-  Case one{Room::light, {parameters.release()}};
-  for (const LightBundle& bundle : stream.bundles) one.parts.push_back(bundle.payload);
-  return one;
-}
-
-/// Appends the bytes of an array to a BIN chunk in the making and returns where they begin.
-template <typename T>
-uint32_t place(ByteWriter& bin, const std::vector<T>& values) {
-  const auto at = static_cast<uint32_t>(bin.size());
-  bin.append({reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)});
-  return at;
-}
-
-Case mesh_case(const Mesh& mesh) {
-  Progress silent;
-  const EncodedMesh encoded = encode(build_progressive(mesh, {{}, 40}, silent).value(), 128);
-  const OpenedBase base(encoded.base);
-  ByteWriter bin;
-  BasePlaces places;
-  places.positions = place(bin, base.mesh.positions);
-  places.normals = place(bin, base.mesh.normals);
-  for (size_t set = 0; set < 2; set++) places.texcoords[set] = place(bin, base.mesh.texcoords[set]);
-  places.colors = place(bin, base.colors);
-  places.indices = place(bin, base.indices);
-
-  ByteWriter parameters;
-  encoded.layout.write(parameters);
-  places.write(parameters);
-  Case one{Room::mesh, {parameters.release(), bin.release()}};
-  for (const MeshBlock& block : encoded.blocks) one.parts.push_back(block.payload);
-  return one;
-}
-
-Case texture_case(Random& random, uint32_t length) {
-  const std::vector<uint8_t> file = random_bytes(random, length);
-  Case one{Room::texture, {encode_texture_parameters({length, ImageFormat::webp, 640, 480})}};
-  for (const Bytes block : texture_blocks(file)) one.parts.emplace_back(block.begin(), block.end());
-  return one;
-}
-
-std::vector<Case> intact_cases() {
-  Random random(seed, 0);
-  std::vector<Case> cases;
-  for (const size_t length : {0u, 1u, 100u, 20000u}) cases.push_back({Room::base, {random_bytes(random, length)}});
-  for (uint64_t field = 0; field < 4; field++)
-    cases.push_back(light_case(lamp_grid(random_shape(random, 12), field, 0.2f, field % 2 == 1)));
-  for (const auto& [name, mesh] : nasty_meshes()) cases.push_back(mesh_case(mesh));
-  for (const uint32_t length : {1u, 32768u, 100000u}) cases.push_back(texture_case(random, length));
-  cases.push_back({Room::pack, {make_pack(random_bytes(random, 100), random_streams(seed))}});
-  cases.push_back({Room::pack, {sample_pack(sample_scene(2000, 8))}});
-  return cases;
-}
-
-/// A case with a few bits of one part turned over, or that part cut off somewhere.
-Case damaged(Case one, Random& random) {
-  std::vector<uint8_t>& part = one.parts[random.below(static_cast<uint32_t>(one.parts.size()))];
-  if (part.empty()) return one;
-  const auto length = static_cast<uint32_t>(part.size());
-  if (random.below(4) == 0)
-    part.resize(random.below(length));
-  else
-    for (int i = 0; i < 3; i++) part[random.below(length)] ^= static_cast<uint8_t>(1u << random.below(8));
-  return one;
-}
-
-}  // namespace
-
 int main() {
-  Random random(seed, 1);
+  constexpr int damaged_copies = 4;
+  Random random(1, 1);
   ByteWriter writer;
-  for (const Case& one : intact_cases()) {
+  for (const Case& one : generate_cases()) {
     write_case(writer, one);
     for (int copy = 0; copy < damaged_copies; copy++) write_case(writer, damaged(one, random));
   }

@@ -27,11 +27,11 @@ inline void write_case(ByteWriter& writer, const Case& one) {
   }
 }
 
-/// Reads what write_case wrote.
+/// Reads what write_case wrote. Of any other bytes it makes some case, no larger than they are.
 inline Case read_case(ByteReader& reader) {
   Case one;
   one.room = static_cast<Room>(reader.u8());
-  for (uint32_t left = reader.u32(); left > 0; left--) {
+  for (uint32_t left = reader.u32(); left > 0 && reader.ok(); left--) {
     const Bytes part = reader.take(reader.u32());
     one.parts.emplace_back(part.begin(), part.end());
   }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// fuzz_seeds FOLDER: what the fuzzer starts from, a folder a target: generated streams, packs, meshes and images, and
+// the rooms of tests/data.
+#include <webp/encode.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "lightwell/base/file.h"
+#include "lightwell/scene/write_ply.h"
+#include "lightwell/texture/image_file.h"
+#include "tests/cases/generate.h"
+#include "tests/client/sample_pack.h"
+#include "tests/mesh/shapes.h"
+
+using namespace lightwell;
+using namespace std::string_view_literals;
+namespace fs = std::filesystem;
+
+namespace {
+
+// The fuzzer cuts longer inputs off.
+constexpr size_t longest_seed = 65536;
+
+constexpr std::string_view ply_text =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty float y\nproperty float z\nproperty uchar "
+    "red\n"
+    "property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n4 0 1 2 3\n";
+
+constexpr std::string_view obj_text =
+    "mtllib none.mtl\no square\nv 0 0 0\nv 1 0 0 0.5 0.5 1\nv 1 1 \\\n0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl a "
+    "b\n"
+    "f 1/1/1 2/2/1 3/1/1 4/2/1\nf -1//1 -2//1 -3//1\nl 1 2\n";
+
+/// Eight pixels, run-length coded in the new way: the rows of each channel one after another.
+constexpr std::string_view radiance_text =
+    "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 1 +X 8\n\x02\x02\x00\x08\x88\x10\x88\x20\x88\x30\x88\x80"sv;
+
+class Seeds {
+ public:
+  explicit Seeds(fs::path folder) : folder_(std::move(folder)) {}
+
+  void plant(const std::string& target, Bytes seed) {
+    if (seed.size() > longest_seed) return;
+    fs::create_directories(folder_ / target);
+    const fs::path file = folder_ / target / std::to_string(planted_++);
+    if (write_file(file.string(), seed)) return;
+    std::fprintf(stderr, "fuzz_seeds: cannot write %s\n", file.c_str());
+    std::exit(1);
+  }
+
+ private:
+  fs::path folder_;
+  int planted_ = 0;
+};
+
+void plant_streams(Seeds& seeds) {
+  for (const Case& one : generate_cases()) {
+    ByteWriter writer;
+    write_case(writer, one);
+    if (one.room == Room::light) seeds.plant("light", writer.bytes());
+    if (one.room == Room::mesh) seeds.plant("mesh", writer.bytes());
+  }
+}
+
+/// The script of client_fuzz.cpp in which the server sends a whole pack, and the client has time to decode it.
+std::vector<uint8_t> client_script(Bytes pack) {
+  constexpr uint8_t respond = 0, wait = 7, receive = 8;
+  ByteWriter script;
+  script.u8(respond);
+  script.u16(0);
+  script.u8(receive);
+  script.u16(static_cast<uint16_t>(pack.size()));
+  script.append(pack);
+  for (int second = 0; second < 200; second++) {
+    script.u8(wait);
+    script.u16(0);
+  }
+  return script.release();
+}
+
+void plant_packs(Seeds& seeds) {
+  const std::vector<uint8_t> pack = sample_pack(sample_scene(200, 6));
+  const Bytes sent = Bytes(pack).first(std::min(pack.size(), longest_seed - 1000));
+  seeds.plant("pack", pack);
+  seeds.plant("client", client_script(sent));
+  seeds.plant("gltf", pack);
+}
+
+void plant_scenes(Seeds& seeds) {
+  for (const auto& entry : fs::directory_iterator(fs::path(LIGHTWELL_TEST_DATA) / "truth"))
+    if (entry.path().extension() == ".glb") seeds.plant("gltf", read_file(entry.path().string()).value());
+  seeds.plant("scene", write_ply(seamed_sphere(6, 8)));
+  seeds.plant("scene", as_bytes(ply_text));
+  seeds.plant("scene", as_bytes(obj_text));
+}
+
+std::vector<uint8_t> webp(const Image& image) {
+  uint8_t* bytes = nullptr;
+  const size_t length = WebPEncodeRGBA(image.pixels.data(), image.width, image.height, 4 * image.width, 50, &bytes);
+  std::vector<uint8_t> file(bytes, bytes + length);
+  WebPFree(bytes);
+  return file;
+}
+
+void plant_images(Seeds& seeds) {
+  Random random(1, 0);
+  for (const int channels : {1, 3, 4}) {
+    Image image{16, 12, channels, {}};
+    for (int i = 0; i < 16 * 12 * channels; i++) image.pixels.push_back(static_cast<uint8_t>(random.below(256)));
+    seeds.plant("texture", write_png(image));
+    if (channels < 4) seeds.plant("texture", write_jpeg(image, 80));
+    if (channels == 4) seeds.plant("texture", webp(image));
+  }
+  seeds.plant("texture", as_bytes(radiance_text));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER\n");
+    return 2;
+  }
+  Seeds seeds(argv[1]);
+  plant_streams(seeds);
+  plant_packs(seeds);
+  plant_scenes(seeds);
+  plant_images(seeds);
+  return 0;
+}
