@@ -27,7 +27,6 @@ export class LightRefinement implements Refinement {
     this.#light = light;
     this.#renderer = renderer;
     light.setAtlas(this.#atlasOf(first));
-    this.#consumed = first.atlas.byteLength;
     this.#hidden = atlasTexture(light.texture.image.data as Uint16Array<ArrayBuffer>, light.definition);
     const { width, height, depth } = light.texture.image;
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);

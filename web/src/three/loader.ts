@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
 import { type ConnectionOptions, PackConnection } from '../core/connection.js';
-import type { LightEvent, PackEvent } from '../core/protocol.js';
+import type { LightEvent, MeshEvent, PackEvent } from '../core/protocol.js';
 import { readOpening } from './opening.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
 
@@ -63,9 +63,15 @@ export class LightwellLoader extends Loader<LightwellScene> {
       const opening = await readOpening(glb, this.manager);
       // The first state of a light is made of the opening alone, so it is close behind. A picture without it would be black.
       const lights: LightEvent[] = [];
-      for (const { stream } of opening.extensions.LIGHTWELL_light_grids?.grids ?? [])
-        lights.push(await inbox.take((event): event is LightEvent => event.type === 'light' && event.stream === stream));
+      for (const { stream } of opening.extensions.LIGHTWELL_light_grids?.grids ?? []) {
+        const light = await inbox.take((event): event is LightEvent => event.type === 'light' && event.stream === stream);
+        connection.consumed(light.atlas.byteLength);
+        lights.push(light);
+      }
       const scene = await LightwellScene.create(opening, lights, connection, renderer, this.#options);
+      // So are the sizes of the meshes: all buffers are there with the first frame.
+      for (const stream of opening.primitives.keys())
+        scene.receive(await inbox.take((event): event is MeshEvent => event.type === 'mesh' && event.stream === stream));
       setTimeout(() => inbox.forward((event) => scene.receive(event)));
       return scene;
     } catch (error) {
