@@ -2,19 +2,21 @@
 import assert from 'node:assert/strict';
 import { chromium } from './dependencies.mjs';
 
-const ARGUMENTS = ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'];
+/** Two renderers on the processor: Mesa's, and ANGLE's own, which knows other extensions. */
+export const LLVMPIPE = { name: 'llvmpipe', arguments: ['--use-gl=angle', '--use-angle=gl-egl', '--ignore-gpu-blocklist'] };
+export const SWIFTSHADER = { name: 'SwiftShader', arguments: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] };
 export const PATIENCE = 60_000;
 
-/** Debian's Chromium with Mesa's llvmpipe; a wrong flag would silently give another renderer, so its name is checked. */
-export async function launch() {
-  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ARGUMENTS });
+/** Debian's Chromium; a wrong flag would silently give another renderer, so its name is checked. */
+export async function launch(renderer = LLVMPIPE) {
+  const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: renderer.arguments });
   const page = await browser.newPage();
-  const renderer = await page.evaluate(() => {
+  const name = await page.evaluate(() => {
     const gl = document.createElement('canvas').getContext('webgl2');
     return gl.getParameter(gl.getExtension('WEBGL_debug_renderer_info').UNMASKED_RENDERER_WEBGL);
   });
   await page.close();
-  assert.match(renderer, /llvmpipe/);
+  assert.ok(name.includes(renderer.name), name);
   return browser;
 }
 

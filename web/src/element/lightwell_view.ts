@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera, Material, Mesh, Scene } from 'three';
+import type { Camera, Scene } from 'three';
 import type { ConnectionEvent, FailureEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import type { LightwellScene } from '../three/scene.js';
@@ -275,7 +275,7 @@ export class LightwellView extends HTMLElement {
       case 'strategy':
         return this.#pack?.setStrategy(parseWord(value, STRATEGIES));
       case 'wireframe':
-        return this.#setWireframe(value !== null);
+        return this.#pack?.setWireframe(value !== null);
       case 'aria-label':
         stage.canvas.setAttribute('role', 'img');
         stage.canvas.setAttribute('aria-label', value ?? DEFAULT_LABEL);
@@ -302,14 +302,6 @@ export class LightwellView extends HTMLElement {
     for (const grid of this.#pack?.grids ?? []) grid.visible = light === 'all' || light === 'indirect';
     for (const lamp of this.#pack?.lamps ?? []) lamp.visible = light === 'all' || light === 'direct';
     this.#stage!.invalidateShadows();
-  }
-
-  #setWireframe(wireframe: boolean): void {
-    this.#pack?.traverse((object) => {
-      const material = (object as Mesh).material as (Material & { wireframe?: boolean }) | Material[] | undefined;
-      for (const one of material === undefined ? [] : [material].flat()) (one as { wireframe?: boolean }).wireframe = wireframe;
-    });
-    this.#stage!.invalidate();
   }
 
   #setPoster(url: string | null): void {

@@ -33,6 +33,7 @@ import type { Refinement } from './refinement.js';
 import { TextureRefinement } from './texture_refinement.js';
 import { UploadBudget } from './upload_budget.js';
 import { meshWeights } from './view_weights.js';
+import { drawsEdges, showEdges } from './wireframe.js';
 
 export interface LightwellSceneEventMap extends Object3DEventMap {
   /** The picture changes with the next frame: where frames are drawn on demand, draw one. */
@@ -74,6 +75,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   #pending = false;
   #received = false;
   #complete = false;
+  #wireframe = false;
 
   private constructor(
     opening: Opening,
@@ -115,6 +117,16 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   setStrategy(strategy: Strategy): void {
     this.#connection.setStrategy(strategy);
+  }
+
+  /**
+   * Shows the triangles' edges. A browser with WEBGL_polygon_mode does so at once and without further memory. In another the
+   * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face.
+   */
+  setWireframe(wireframe: boolean): void {
+    this.#wireframe = wireframe;
+    if (this.#complete || drawsEdges(this.#renderer)) showEdges(this.opening.gltf.scene, this.#renderer, wireframe);
+    this.#changed();
   }
 
   /** Asks for no more until `resume`. */
@@ -196,6 +208,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     if (consumed > 0) this.#connection.consumed(consumed);
     if (this.#pending || !this.#received || this.#complete) return;
     this.#complete = true;
+    this.setWireframe(this.#wireframe);
     this.dispatchEvent({ type: 'complete' });
   }
 
