@@ -22,13 +22,14 @@ export class LightRefinement implements Refinement {
   #waiting: Uint16Array<ArrayBuffer> | null = null;
   #consumed = 0;
 
-  /** `first` is the state of the first frame. */
+  /** `first` is the state of the first frame. Throws when the GPU's 3D textures cannot be of the grid's size. */
   constructor(light: LightwellLight, renderer: WebGLRenderer, first: LightEvent) {
     this.#light = light;
     this.#renderer = renderer;
     light.setAtlas(this.#atlasOf(first));
     this.#hidden = atlasTexture(light.texture.image.data as Uint16Array<ArrayBuffer>, light.definition);
     const { width, height, depth } = light.texture.image;
+    checkSize(width, height, depth, renderer);
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
     for (const texture of [light.texture, this.#hidden]) renderer.initTexture(texture);
   }
@@ -95,4 +96,11 @@ export class LightRefinement implements Refinement {
     this.#consumed += (state.image.data as Uint16Array).byteLength;
     this.#current = null;
   }
+}
+
+function checkSize(width: number, height: number, depth: number, renderer: WebGLRenderer): void {
+  const gl = renderer.getContext() as WebGL2RenderingContext;
+  const most = gl.getParameter(gl.MAX_3D_TEXTURE_SIZE) as number;
+  if (Math.max(width, height, depth) > most)
+    throw new Error(`the light grid needs a 3D texture of ${width} x ${height} x ${depth}; this GPU holds ${most} at most`);
 }
