@@ -21,3 +21,9 @@ export function writeSamplePack(file, triangles) {
   execFileSync(`${BIN}/sample_pack`, [file, String(triangles)]);
   return file;
 }
+
+/** Bakes a scene with few photons and a coarse grid. */
+export function bake(scene, file, ...options) {
+  execFileSync(`${BIN}/lightwell`, ['bake', scene, '-o', file, '--photons', '100000', '--grid', '8', '--quiet', ...options]);
+  return file;
+}
