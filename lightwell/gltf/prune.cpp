@@ -32,7 +32,7 @@ void keep_numbered(Elements& elements, const std::vector<int>& numbers) {
 
 /// Removes the unused elements of a top-level array. Returns their new numbers.
 std::vector<int> drop_unused_elements(Json& json, const char* array) {
-  const std::vector<int> numbers = used_elements(json, array);
+  std::vector<int> numbers = used_elements(json, array);
   if (std::find(numbers.begin(), numbers.end(), -1) == numbers.end()) return numbers;
   for_each_reference(json, [&](Json& value, std::string_view to, const std::string&) {
     const int64_t index = whole_number(value);
