@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { temporaryFolder, writeSamplePack } from './packs.mjs';
+import { startServe } from './servers.mjs';
+import { complete } from './view.mjs';
+
+const folder = temporaryFolder();
+const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 1_000);
+/** Moves of a finger on its way. */
+const STEPS = 5;
+/** Rounding of sines and cosines, relative. */
+const SAME = 1e-6;
+
+let browser;
+let server;
+before(async () => {
+  browser = await launch();
+  server = await startServe(PACK);
+});
+after(async () => {
+  await browser.close();
+  await server.stop();
+});
+
+/** A phone's page, and what moves fingers on it: each goes from one place to another, as parts of the screen. */
+async function openPhone(t) {
+  const size = { width: 195, height: 422 };
+  const { page, errors, close } = await openPage(browser, { ...size, hasTouch: true });
+  t.after(close);
+  await page.goto(server.url);
+  await complete(page);
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, fingers) =>
+    session.send('Input.dispatchTouchEvent', {
+      type,
+      touchPoints: fingers.map(([x, y], id) => ({ x: x * size.width, y: y * size.height, id })),
+    });
+  const move = async (...ways) => {
+    const at = (step) => ways.map(({ from, to }) => from.map((start, axis) => start + ((to[axis] - start) * step) / STEPS));
+    await touch('touchStart', at(0));
+    for (let step = 1; step <= STEPS; step++) await touch('touchMove', at(step));
+    await touch('touchEnd', []);
+  };
+  const view = () => page.evaluate(() => document.querySelector('lightwell-view').view);
+  return { move, view, errors };
+}
+
+const near = (a, b) => Math.abs(a - b) <= SAME * Math.max(1, Math.abs(a));
+const sameTarget = (a, b) => a.target.every((value, axis) => near(value, b.target[axis]));
+
+test('a finger turns the scene', async (t) => {
+  const { move, view, errors } = await openPhone(t);
+  const before = await view();
+  await move({ from: [0.3, 0.3], to: [0.6, 0.3] });
+  const now = await view();
+  assert.ok(now.theta < before.theta, 'to the right: the camera goes left around it');
+  assert.ok(near(now.radius, before.radius) && sameTarget(now, before));
+  assert.deepEqual(errors, []);
+});
+
+test('two fingers that part come nearer', async (t) => {
+  const { move, view, errors } = await openPhone(t);
+  const before = await view();
+  await move({ from: [0.45, 0.3], to: [0.2, 0.3] }, { from: [0.55, 0.3], to: [0.8, 0.3] });
+  const now = await view();
+  assert.ok(now.radius < 0.9 * before.radius, `${before.radius} became ${now.radius}`);
+  assert.deepEqual(errors, []);
+});
+
+test('two fingers side by side move the scene', async (t) => {
+  const { move, view, errors } = await openPhone(t);
+  const before = await view();
+  await move({ from: [0.3, 0.3], to: [0.5, 0.4] }, { from: [0.5, 0.3], to: [0.7, 0.4] });
+  const now = await view();
+  assert.ok(!sameTarget(now, before));
+  assert.ok(Math.abs(now.radius / before.radius - 1) < 0.05, `${before.radius} became ${now.radius}`);
+  assert.deepEqual(errors, []);
+});
