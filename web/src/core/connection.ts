@@ -27,7 +27,7 @@ export class PackConnection {
   constructor(url: string, options: ConnectionOptions = {}) {
     const workerUrl = absolute(options.workerUrl ?? new URL('./worker.js', import.meta.url).href);
     const wasm = absolute(options.wasmUrl ?? new URL('./lightwell.wasm', import.meta.url).href);
-    const listen = (events: PackEvent[]) => events.forEach((event) => this.#closed || this.onEvent(event));
+    const listen = (events: PackEvent[]) => events.forEach((event) => this.#deliver(event));
     this.#port = connectWorker(workerUrl, listen).catch(() => connectHere(workerUrl, listen));
     this.#port.catch((error: unknown) => listen([failure(`${workerUrl}: ${String(error)}`)]));
     this.#send({ type: 'open', url: absolute(url), wasm, strategy: options.strategy ?? 'interleave' });
@@ -58,6 +58,16 @@ export class PackConnection {
   close(): void {
     this.#closed = true;
     this.#port.then((port) => port.close()).catch(() => {});
+  }
+
+  /** A listener that throws loses its event, not the rest of what came with it. */
+  #deliver(event: PackEvent): void {
+    if (this.#closed) return;
+    try {
+      this.onEvent(event);
+    } catch (error) {
+      reportError(error);
+    }
   }
 
   #send(command: Command): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { loadWasm } from './load_wasm.js';
-import { type Command, type ConnectionEvent, type PackEvent, type Progress, payload } from './protocol.js';
+import { type Command, type ConnectionEvent, type PackEvent, type Progress, type Strategy, payload } from './protocol.js';
 import { RateMeter } from './rate_meter.js';
 import { WasmClient } from './wasm_client.js';
 
@@ -34,29 +34,48 @@ export class PackSession {
 
   command(command: Command): void {
     if (command.type === 'open') void this.#open(command.url, command.wasm, command.strategy);
-    else if (this.#client === null) this.#waiting.push(command);
-    else this.#obey(this.#client, command);
+    else if (this.#client === null && !this.#closed) this.#waiting.push(command);
+    else this.#run((client) => this.#obey(client, command));
   }
 
+  /** The client's memory goes with its module. */
   close(): void {
     this.#closed = true;
     clearTimeout(this.#timer);
     for (const controller of this.#requests.values()) controller.abort();
-    this.#client?.destroy();
     this.#client = null;
   }
 
-  async #open(url: string, wasm: string, strategy: Parameters<WasmClient['setStrategy']>[0]): Promise<void> {
+  async #open(url: string, wasm: string, strategy: Strategy): Promise<void> {
     try {
       const exports = await loadWasm(wasm);
       if (this.#closed) return;
       this.#url = url;
       this.#client = new WasmClient(exports, strategy);
     } catch (error) {
-      return this.#emit([{ type: 'failure', reason: 'unreadable', message: String(error) }]);
+      return this.#giveUp(error);
     }
-    for (const command of this.#waiting.splice(0)) this.#obey(this.#client, command);
-    this.#pump();
+    this.#run((client) => this.#waiting.splice(0).forEach((command) => this.#obey(client, command)));
+  }
+
+  /**
+   * Tells the client something, then does what there is to do. All that happens comes through here: a client that trapped,
+   * for want of memory for instance, is in no known state and is not called again.
+   */
+  #run(tell: (client: WasmClient) => void): void {
+    if (this.#client === null) return;
+    try {
+      tell(this.#client);
+      this.#pump(this.#client);
+    } catch (error) {
+      this.#giveUp(error);
+    }
+  }
+
+  #giveUp(error: unknown): void {
+    if (this.#closed) return;
+    this.close();
+    this.#emit([{ type: 'failure', reason: 'unreadable', message: String(error) }]);
   }
 
   #obey(client: WasmClient, command: Command): void {
@@ -77,14 +96,11 @@ export class PackSession {
         this.#inFlight -= command.bytes;
         break;
     }
-    this.#pump();
   }
 
   /** Does what there is to do for one slice of time, then comes back when there is more. */
-  #pump(): void {
+  #pump(client: WasmClient): void {
     clearTimeout(this.#timer);
-    const client = this.#client;
-    if (client === null || this.#closed) return;
     const start = performance.now();
     const events: PackEvent[] = [];
     let more = true;
@@ -101,7 +117,7 @@ export class PackSession {
   #act(client: WasmClient): void {
     if (this.#paused) return;
     for (let action = client.next(now()); action !== null; action = client.next(now())) {
-      if (action.type === 'ask') void this.#fetch(client, action.request, action.first, action.last);
+      if (action.type === 'ask') void this.#fetch(action.request, action.first, action.last);
       else this.#requests.get(action.request)?.abort();
     }
   }
@@ -121,31 +137,22 @@ export class PackSession {
     return true;
   }
 
-  async #fetch(client: WasmClient, request: number, first: number, last: number): Promise<void> {
+  /** Carries a request. One that was cancelled says nothing more. */
+  async #fetch(request: number, first: number, last: number): Promise<void> {
     const controller = new AbortController();
+    const { signal } = controller;
     this.#requests.set(request, controller);
+    const report = (tell: (client: WasmClient) => void) => signal.aborted || this.#run(tell);
     try {
-      const response = await fetch(this.#url, { headers: { Range: `bytes=${first}-${last}` }, signal: controller.signal });
+      const response = await fetch(this.#url, { headers: { Range: `bytes=${first}-${last}` }, signal });
       const header = (name: string) => response.headers.get(name) ?? '';
-      client.respond(request, response.status, header('Content-Range'), header('ETag'), now());
-      this.#pump();
-      await this.#read(client, request, response, controller.signal);
-      if (!controller.signal.aborted) client.finish(request, now());
+      report((client) => client.respond(request, response.status, header('Content-Range'), header('ETag'), now()));
+      await readBody(response, (bytes) => report((client) => client.receive(request, bytes, now())));
+      report((client) => client.finish(request, now()));
     } catch {
-      if (!controller.signal.aborted) client.fail(request, now());
+      report((client) => client.fail(request, now()));
     }
     this.#requests.delete(request);
-    this.#pump();
-  }
-
-  async #read(client: WasmClient, request: number, response: Response, signal: AbortSignal): Promise<void> {
-    const reader = response.body?.getReader();
-    while (reader !== undefined) {
-      const { done, value } = await reader.read();
-      if (done || signal.aborted) return;
-      client.receive(request, value, now());
-      this.#pump();
-    }
   }
 
   #report(client: WasmClient, events: PackEvent[], time: number): void {
@@ -175,10 +182,16 @@ export class PackSession {
 
   #comeBack(client: WasmClient, more: boolean): void {
     const seconds = client.wakeIn(now());
-    if (more) this.#timer = setTimeout(() => this.#pump(), 0);
-    else if (Number.isFinite(seconds) && !this.#paused)
-      this.#timer = setTimeout(() => this.#pump(), Math.max(1, seconds * 1000));
+    const pump = () => this.#run(() => {});
+    if (more) this.#timer = setTimeout(pump, 0);
+    else if (Number.isFinite(seconds) && !this.#paused) this.#timer = setTimeout(pump, Math.max(1, seconds * 1000));
   }
+}
+
+/** Hands a body over piece by piece; rejects when it breaks or is cancelled. */
+async function readBody(response: Response, receive: (bytes: Uint8Array) => void): Promise<void> {
+  const reader = response.body?.getReader();
+  for (let piece = await reader?.read(); piece !== undefined && !piece.done; piece = await reader?.read()) receive(piece.value);
 }
 
 function now(): number {

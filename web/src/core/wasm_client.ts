@@ -6,7 +6,6 @@ interface Exports {
   memory: WebAssembly.Memory;
   lw_abi_version(): number;
   lw_create(strategy: number, fill: number, seed: number): number;
-  lw_destroy(client: number): void;
   lw_input(length: number): number;
   lw_record(): number;
   lw_next(client: number, now: number): number;
@@ -46,7 +45,7 @@ export interface Counts {
   failures: number;
 }
 
-/** The client of lightwell/client/ with JavaScript's types. Times are seconds. */
+/** The client of lightwell/client/ with JavaScript's types, one for each instance of the module. Times are seconds. */
 export class WasmClient {
   readonly #wasm: Exports;
   readonly #handle: number;
@@ -57,10 +56,6 @@ export class WasmClient {
     if (version !== ABI_VERSION) throw new Error(`lightwell.wasm is of interface ${version}, this script of ${ABI_VERSION}`);
     const seed = Math.floor(Math.random() * 2 ** 32);
     this.#handle = this.#wasm.lw_create(STRATEGIES.indexOf(strategy), FILL_PUSH_PULL, seed);
-  }
-
-  destroy(): void {
-    this.#wasm.lw_destroy(this.#handle);
   }
 
   next(now: number): Action | null {
@@ -97,7 +92,7 @@ export class WasmClient {
     return this.#wasm.lw_wake(this.#handle) - now;
   }
 
-  /** Decodes at most one block; true when another waits. */
+  /** Decodes at most one block, or fills a light grid; false when there was nothing to do. */
   work(): boolean {
     return this.#wasm.lw_work(this.#handle) !== 0;
   }
