@@ -22,8 +22,9 @@ export function writeSamplePack(file, triangles) {
   return file;
 }
 
-/** Bakes a scene with few photons and a coarse grid. */
-export function bake(scene, file, ...options) {
-  execFileSync(`${BIN}/lightwell`, ['bake', scene, '-o', file, '--photons', '100000', '--grid', '8', '--quiet', ...options]);
+/** Bakes a scene with few photons and a coarse grid; `options` are those of the command. */
+export function bake(scene, file, options = {}) {
+  const flags = Object.entries({ photons: 100_000, grid: 8, ...options }).flatMap(([name, value]) => [`--${name}`, String(value)]);
+  execFileSync(`${BIN}/lightwell`, ['bake', scene, '-o', file, '--quiet', ...flags]);
   return file;
 }
