@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pack in a <lightwell-view> whose materials reflect evenly in all directions and do not shine, as `lightwell render --only
+// indirect` shows them.
+import { Mesh, MeshLambertMaterial, type MeshStandardMaterial } from 'three';
+import '../../../web/src/element/index.js';
+import type { LightwellView } from '../../../web/src/element/lightwell_view.js';
+
+function lambert({ color, map, side, vertexColors }: MeshStandardMaterial): MeshLambertMaterial {
+  return new MeshLambertMaterial({ color, map, side, vertexColors });
+}
+
+document.body.innerHTML = '<lightwell-view src="pack.lw.glb" tone="none" light="indirect" style="position: fixed; inset: 0">';
+const view = document.querySelector<LightwellView>('lightwell-view')!;
+view.on('load', () =>
+  view.pack!.traverse((object) => {
+    if (object instanceof Mesh) object.material = lambert(object.material as MeshStandardMaterial);
+  }),
+);
