@@ -15,14 +15,15 @@ const TYPES = {
 
 /**
  * A plain web server for tests. `routes` maps a path, or the beginning of one that ends in a slash, to a file or folder, or to
- * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly.
+ * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly;
+ * `cors` false lets no page of another origin read; `port` 0 takes any.
  */
-export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'] } = {}) {
+export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], cors = true, port = 0 } = {}) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
-    void answer(routes, { ranges, wasmType }, path, request, response);
+    void answer(routes, { ranges, wasmType, cors }, path, request, response);
   });
-  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  await new Promise((resolve) => server.listen(port, '127.0.0.1', resolve));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
     stop: () => {
@@ -32,8 +33,8 @@ export async function startStaticServer(routes, { ranges = true, wasmType = TYPE
   };
 }
 
-async function answer(routes, { ranges, wasmType }, path, request, response) {
-  response.setHeader('Access-Control-Allow-Origin', '*');
+async function answer(routes, { ranges, wasmType, cors }, path, request, response) {
+  if (cors) response.setHeader('Access-Control-Allow-Origin', '*');
   response.setHeader('Access-Control-Expose-Headers', 'Content-Range, ETag, Accept-Ranges');
   response.setHeader('Cache-Control', 'no-store');
   const target = resolveRoute(routes, path);

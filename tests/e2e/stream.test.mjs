@@ -135,12 +135,6 @@ test('a file that is replaced in mid-stream is said and loaded anew', async (t) 
   assert.deepEqual(errors, []);
 });
 
-test('what is no pack is refused in words', async (t) => {
-  const { page } = await staticPage(t, ['index.html'], { base: '/' });
-  await notice(page, '.');
-  assert.equal(await page.evaluate(() => document.querySelector('lightwell-view').loaded), false);
-});
-
 test('the camera is in the address', async (t) => {
   const { page } = await staticPage(t, ['small.lw.glb']);
   await loaded(page);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { loadWasm } from './load_wasm.js';
-import { type Command, type ConnectionEvent, type PackEvent, type Progress, type Strategy, payload } from './protocol.js';
+import { type Command, type ConnectionEvent, type FailureEvent, type PackEvent, type Progress, type Strategy, payload } from './protocol.js';
 import { RateMeter } from './rate_meter.js';
 import { WasmClient } from './wasm_client.js';
 
@@ -13,6 +13,8 @@ const PIECE = 64 << 10;
 /** Progress is told at most this often, in milliseconds. */
 const PROGRESS_INTERVAL = 100;
 
+const FORBIDDEN = 'the server does not let pages of other sites read it (no Access-Control-Allow-Origin)';
+
 /** Drives the client of one pack: carries its requests with fetch, gives it time to decode, emits what it hands over. */
 export class PackSession {
   readonly #emit: (events: PackEvent[]) => void;
@@ -21,6 +23,7 @@ export class PackSession {
   #waiting: Command[] = [];
   readonly #requests = new Map<number, AbortController>();
   readonly #rate = new RateMeter();
+  #answered = false;
   #inFlight = 0;
   #paused = false;
   #closed = false;
@@ -72,10 +75,10 @@ export class PackSession {
     }
   }
 
-  #giveUp(error: unknown): void {
+  #giveUp(error: unknown, reason: FailureEvent['reason'] = 'unreadable'): void {
     if (this.#closed) return;
     this.close();
-    this.#emit([{ type: 'failure', reason: 'unreadable', message: String(error) }]);
+    this.#emit([{ type: 'failure', reason, message: error instanceof Error ? error.message : String(error) }]);
   }
 
   #obey(client: WasmClient, command: Command): void {
@@ -145,14 +148,23 @@ export class PackSession {
     const report = (tell: (client: WasmClient) => void) => signal.aborted || this.#run(tell);
     try {
       const response = await fetch(this.#url, { headers: { Range: `bytes=${first}-${last}` }, signal });
+      this.#answered = true;
       const header = (name: string) => response.headers.get(name) ?? '';
       report((client) => client.respond(request, response.status, header('Content-Range'), header('ETag'), now()));
       await readBody(response, (bytes) => report((client) => client.receive(request, bytes, now())));
       report((client) => client.finish(request, now()));
     } catch {
+      if (!signal.aborted && (await this.#isForbidden())) this.#giveUp(FORBIDDEN, 'refused');
       report((client) => client.fail(request, now()));
     }
     this.#requests.delete(request);
+  }
+
+  /** Whether the server is there but lets no page of this origin read the file. Browsers do not tell that from a broken line. */
+  async #isForbidden(): Promise<boolean> {
+    if (this.#answered || new URL(this.#url).origin === origin) return false;
+    const reach = (mode: RequestMode) => fetch(this.#url, { method: 'HEAD', mode }).then(() => true, () => false);
+    return (await reach('no-cors')) && !(await reach('cors'));
   }
 
   #report(client: WasmClient, events: PackEvent[], time: number): void {

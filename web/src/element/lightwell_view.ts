@@ -15,7 +15,7 @@ export interface LightwellViewDetails {
   connection: { state: ConnectionEvent['state'] };
   complete: null;
   'camera-change': View;
-  error: { reason: FailureEvent['reason']; message: string };
+  error: { reason: FailureEvent['reason'] | 'unsupported'; message: string };
 }
 
 const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
@@ -154,15 +154,28 @@ export class LightwellView extends HTMLElement {
     const root = this.shadowRoot ?? this.attachShadow({ mode: 'open' });
     const style = document.createElement('style');
     style.textContent = STYLE;
-    const stage = (this.#stage = new Stage());
+    root.replaceChildren(style);
+    const stage = this.#createStage();
+    if (stage === null) return this.#apply('poster');
+    this.#stage = stage;
     this.#orbit = new Orbit(stage.camera, stage.canvas, () => this.#onView());
     stage.beforeFrame = (seconds) => this.#orbit?.update(seconds);
     stage.afterFrame = () => this.#onFrame();
-    root.replaceChildren(style, stage.canvas);
+    root.append(stage.canvas);
     this.#resize.observe(this);
     this.#intersection.observe(this);
     for (const name of LightwellView.observedAttributes) if (name !== 'src') this.#apply(name);
     this.#load();
+  }
+
+  /** Null where the browser cannot: said a turn later, so that the page can listen. */
+  #createStage(): Stage | null {
+    try {
+      return new Stage();
+    } catch (error) {
+      setTimeout(() => this.#emit('error', { reason: 'unsupported', message: messageOf(error) }));
+      return null;
+    }
   }
 
   disconnectedCallback(): void {
@@ -193,7 +206,8 @@ export class LightwellView extends HTMLElement {
     if (src === null || stage === null || (this.getAttribute('loading') === 'lazy' && !this.#near)) return;
     const attempt = ++this.#attempt;
     const strategy: Strategy = parseWord(this.getAttribute('strategy'), STRATEGIES);
-    new LightwellLoader().setRenderer(stage.renderer).setOptions({ strategy }).load(
+    const onConnection = (state: ConnectionEvent['state']) => attempt === this.#attempt && this.#emit('connection', { state });
+    new LightwellLoader().setRenderer(stage.renderer).setOptions({ strategy, onConnection }).load(
       src,
       (pack) => (attempt === this.#attempt ? this.#show(pack) : pack.dispose()),
       undefined,

@@ -28,8 +28,11 @@ export class Stage {
   #shadowTime = -Infinity;
   #shadowTimer: ReturnType<typeof setTimeout> | undefined;
 
+  /** Throws where there is no WebGL2. */
   constructor() {
-    this.renderer = new WebGLRenderer({ canvas: this.canvas, alpha: true, antialias: true });
+    const context = this.canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
+    if (context === null) throw new Error('This browser has no WebGL2, which it takes to show a 3D scene.');
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;

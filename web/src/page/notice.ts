@@ -14,7 +14,8 @@ export function bindNotice(view: LightwellView): { fail(message: string): void }
   view.on('connection', ({ state }) => show(state === 'waiting' ? AWAY : '', false));
   view.on('error', ({ reason, message }) => {
     if (reason === 'replaced') show('The file has changed. Loading the new one.', false);
-    else show(message, true);
+    else if (reason === 'unsupported') show(message, true);
+    else show(`${view.loaded ? 'The rest of this scene' : 'This scene'} cannot be shown. ${message}`, true);
   });
   view.on('load', () => show('', false));
   return { fail: (message) => show(message, true) };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
 import { type ConnectionOptions, PackConnection } from '../core/connection.js';
-import type { LightEvent, MeshEvent, PackEvent } from '../core/protocol.js';
+import type { ConnectionEvent, LightEvent, MeshEvent, PackEvent } from '../core/protocol.js';
 import { readOpening } from './opening.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
 
-export type LoaderOptions = ConnectionOptions & SceneOptions;
+export interface LoaderOptions extends ConnectionOptions, SceneOptions {
+  /** Told how the connection is until the scene is there, which says so itself from then on. */
+  onConnection?: (state: ConnectionEvent['state']) => void;
+}
 
 /**
  * Loads a pack. What it gives can be shown as soon as the pack's first kilobytes are here and refines itself from then on:
@@ -58,7 +61,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
     if (renderer === null) throw new Error('LightwellLoader: call setRenderer before loading');
     const connection = new PackConnection(url, this.#options);
     try {
-      const inbox = new Inbox(connection, onProgress);
+      const inbox = new Inbox(connection, onProgress, this.#options.onConnection);
       const { glb } = await inbox.take((event) => event.type === 'opening');
       const opening = await readOpening(glb, this.manager);
       // The first state of a light is made of the opening alone, so it is close behind. A picture without it would be black.
@@ -87,10 +90,15 @@ class Inbox {
   readonly #events: PackEvent[] = [];
   #look: () => void = () => {};
 
-  constructor(connection: PackConnection, onProgress?: (event: globalThis.ProgressEvent) => void) {
+  constructor(
+    connection: PackConnection,
+    onProgress?: (event: globalThis.ProgressEvent) => void,
+    onConnection?: LoaderOptions['onConnection'],
+  ) {
     this.#connection = connection;
     connection.onEvent = (event) => {
       if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
+      if (event.type === 'connection') onConnection?.(event.state);
       this.#events.push(event);
       this.#look();
     };
