@@ -7,7 +7,7 @@ namespace lightwell {
 namespace {
 
 // Slicing by eight: tables[k][b] is the CRC of byte b followed by k zero bytes.
-constexpr std::array<std::array<uint32_t, 256>, 8> make_tables() {
+std::array<std::array<uint32_t, 256>, 8> make_tables() {
   std::array<std::array<uint32_t, 256>, 8> tables{};
   for (uint32_t b = 0; b < 256; b++) {
     uint32_t crc = b;
@@ -19,7 +19,8 @@ constexpr std::array<std::array<uint32_t, 256>, 8> make_tables() {
   return tables;
 }
 
-constexpr auto tables = make_tables();
+// Made when the program starts: as constants they would be 8 KB of the page, and no compression makes them smaller.
+const auto tables = make_tables();
 
 }  // namespace
 
