@@ -8,12 +8,15 @@ fuzz_seconds=${FUZZ_SECONDS:-600}
 
 say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
 
+# clang-tidy runs beside the compiler, which ccache spares the work: a file is looked at again when it or a header changes.
 style() {
   say "Checking the format"
   git ls-files '*.h' '*.cpp' | xargs clang-format-14 --dry-run -Werror
   say "Checking with clang-tidy"
-  # The WebAssembly entry points are for another compiler.
-  git ls-files 'lightwell/*.cpp' | grep -v '/client/wasm' | xargs -P 2 -n 4 clang-tidy-14 -p build/release --quiet >&2
+  mkdir -p build
+  cmake -S . -B build/tidy -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DLIGHTWELL_WERROR=ON \
+    "-DCMAKE_CXX_CLANG_TIDY=clang-tidy-14;--quiet" >build/tidy.log 2>&1 || { cat build/tidy.log >&2; exit 1; }
+  ninja -C build/tidy --quiet -k 0 lightwell >&2
 }
 
 # One folder for tests and fuzz targets: the instrumentation for the fuzzer does nothing in a test.
@@ -33,32 +36,29 @@ sanitizers() {
   LIGHTWELL_TEST_SCALE=10 ctest --test-dir build/sanitize --output-on-failure --parallel 2 >&2
 }
 
-# What the fuzzer starts from: real files, and a client's script (fuzz/client_fuzz.cpp) that answers with a whole pack.
-plant_seeds() {
-  local seeds=build/fuzz/corpus pack=build/fuzz/corpus/pack_fuzz/sample
-  mkdir -p $seeds/{pack,client,gltf}_fuzz
-  build/sanitize/bin/sample_pack $pack 200
-  python3 - $pack >$seeds/client_fuzz/sample <<'PYTHON'
-import sys
-pack = open(sys.argv[1], 'rb').read()[:65535]
-respond, receive, wait = b'\0\0\0', b'\x08' + len(pack).to_bytes(2, 'little') + pack, b'\x07\0\0'
-sys.stdout.buffer.write(respond + receive + 200 * wait)
-PYTHON
-  cp tests/data/truth/*.glb $seeds/gltf_fuzz
+# A target's run ends at the first input that crashes it, leaks, takes 20 seconds or too much memory, and keeps that input. One
+# piece of memory may be as large as the largest image that is read.
+fuzz_target() { # NAME SECONDS
+  local name=$1 log=build/fuzz/$1.log corpus=build/fuzz/corpus/$1 largest_piece=256
+  case $name in gltf | texture) largest_piece=1100 ;; esac
+  mkdir -p "$corpus"
+  build/sanitize/bin/"${name}_fuzz" -max_total_time="$2" -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=$largest_piece \
+    -max_len=65536 -verbosity=0 -print_final_stats=1 -artifact_prefix="build/fuzz/$name-" "$corpus" build/fuzz/seeds/"$name" \
+    >"$log" 2>&1 || { tail -n 50 "$log"; echo "$name: FAILED, the input is kept in build/fuzz"; return 1; }
+  awk -v name="$name" '/^stat::/ { figure[$1] = $2 }
+    END { printf "%-8s %9d executions, the slowest %d s, %d MB\n", name, figure["stat::number_of_executed_units:"],
+          figure["stat::slowest_unit_time_sec:"], figure["stat::peak_rss_mb:"] }' "$log"
 }
 
 fuzz() {
   build_with_sanitizers
-  plant_seeds
-  say "Fuzzing for $fuzz_seconds seconds"
-  local targets=(build/sanitize/bin/*_fuzz) target name corpus
-  for target in "${targets[@]}"; do
-    name=$(basename "$target")
-    corpus=build/fuzz/corpus/$name
-    mkdir -p "$corpus"
-    "$target" -max_total_time=$((fuzz_seconds / ${#targets[@]})) -rss_limit_mb=2048 -timeout=20 -max_len=65536 -verbosity=0 \
-      -artifact_prefix="build/fuzz/$name-" "$corpus" >&2
-  done
+  build/sanitize/bin/fuzz_seeds build/fuzz/seeds
+  local names
+  mapfile -t names < <(cd build/sanitize/bin && ls -- *_fuzz | sed 's/_fuzz$//')
+  say "Fuzzing for $fuzz_seconds seconds, two targets at a time"
+  export -f fuzz_target
+  printf '%s\n' "${names[@]}" |
+    xargs -P 2 -I NAME bash -c "fuzz_target NAME $((2 * fuzz_seconds / ${#names[@]}))" >&2
 }
 
 shared() {

@@ -91,7 +91,8 @@ void merge_buffers(Document& document) {
   Json& buffers = document.json["buffers"];
   buffers.erase(buffers.begin() + 1, buffers.end());
   buffers[0]["byteLength"] = merged.size();
-  document.buffers.assign(1, std::move(merged));
+  document.buffers.resize(1);
+  document.buffers[0] = std::move(merged);
 }
 
 }  // namespace
