@@ -41,7 +41,7 @@ void decode(benchmark::State& state) {
   size_t bytes = parameters.size();
   for (const LightBundle& bundle : stream.bundles) bytes += bundle.payload.size();
   for (auto _ : state) {
-    LightDecoder decoder = LightDecoder::open(parameters.bytes()).value();
+    LightDecoder decoder = LightDecoder::open(parameters.bytes(), bytes).value();
     for (const LightBundle& bundle : stream.bundles) benchmark::DoNotOptimize(decoder.append(bundle.payload));
   }
   const auto nodes = static_cast<double>(grid.moments.size());

@@ -168,7 +168,7 @@ Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level,
 
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level) {
   const StreamEntry& entry = pack.directory().streams[stream];
-  LW_TRY(decoder, LightDecoder::open(entry.parameters));
+  LW_TRY(decoder, LightDecoder::open(entry.parameters, entry.length));
   const double wanted = static_cast<double>(level.share) * static_cast<double>(decoder.grid().shape.count());
   for (uint32_t block = 0; block < entry.blocks && static_cast<double>(decoder.received()) < wanted; block++) {
     LW_TRY(payload, pack.block(stream, block));

@@ -38,7 +38,7 @@ Result<StreamDecoder> open_mesh(const PackReader& pack, const StreamEntry& entry
 Result<StreamDecoder> open_stream(const PackReader& pack, const StreamEntry& entry) {
   switch (entry.kind) {
     case StreamKind::light: {
-      LW_TRY(decoder, LightDecoder::open(entry.parameters));
+      LW_TRY(decoder, LightDecoder::open(entry.parameters, entry.length));
       return wrap<LightDecoder>(std::move(decoder), [](const LightDecoder& d) { return uint64_t(d.received()); });
     }
     case StreamKind::mesh: return open_mesh(pack, entry);

@@ -2,7 +2,6 @@
 #include "lightwell/client/client.h"
 
 #include <algorithm>
-#include <deque>
 
 #include "lightwell/client/download.h"
 #include "lightwell/client/refiner.h"
@@ -10,6 +9,13 @@
 #include "lightwell/pack/self_contained.h"
 
 namespace lightwell {
+
+namespace {
+
+// For the buffers of all streams together: what a WebAssembly module may well have.
+constexpr uint64_t most_buffer_bytes = uint64_t(2) << 30;
+
+}  // namespace
 
 class Client::Machine {
  public:
@@ -49,7 +55,12 @@ class Client::Machine {
       if (std::optional<Update> update = refiners_[turn_]->take(budget)) return update;
       turn_ = (turn_ + 1) % count;
     }
-    if (completed_ || !complete()) return std::nullopt;
+    if (completed_ || !all_decoded()) return std::nullopt;
+    for (size_t i = 0; i < count; i++)
+      if (!refiners_[i]->complete()) {
+        give_up({FailureUpdate::Reason::unreadable, "stream " + std::to_string(i) + " is not complete"});
+        return take_failure();
+      }
     completed_ = true;
     return CompleteUpdate{};
   }
@@ -91,7 +102,8 @@ class Client::Machine {
   /// What the opening itself holds of a light is there to be handed over at once, however much waits to be decoded.
   void open_refiner() {
     const uint32_t stream = static_cast<uint32_t>(refiners_.size());
-    auto refiner = make_refiner(download_.directory(), stream, glb_chunks(download_.opening()).bin, options_.fill);
+    auto refiner =
+        make_refiner(download_.directory(), stream, glb_chunks(download_.opening()).bin, options_.fill, budget_);
     if (!refiner) return give_up({FailureUpdate::Reason::unreadable, refiner.error().message()});
     refiners_.push_back(std::move(*refiner));
     refiners_.back()->settle();
@@ -118,7 +130,8 @@ class Client::Machine {
     return std::ranges::any_of(refiners_, [](const auto& refiner) { return refiner->settle(); });
   }
 
-  bool complete() const {
+  /// True when every block has been decoded and is ready to be handed over.
+  bool all_decoded() const {
     for (size_t i = 0; i < download_.directory().streams.size(); i++)
       if (!download_.complete(i)) return false;
     return refiners_.size() == download_.directory().streams.size() &&
@@ -141,6 +154,7 @@ class Client::Machine {
   Requests requests_;
   std::vector<float> weights_;
   std::vector<std::unique_ptr<Refiner>> refiners_;
+  uint64_t budget_ = most_buffer_bytes;
   size_t decoding_ = 0;  ///< the stream whose turn it is to be decoded
   size_t turn_ = 0;      ///< the stream whose turn it is to hand over
   bool checked_ = false;

@@ -43,6 +43,7 @@ class LightRefiner final : public Refiner {
         bytes};
   }
 
+  bool complete() const override { return decoder_.complete(); }
   uint64_t decoded() const override { return decoder_.received(); }
   uint64_t total() const override { return decoder_.layout().shape.count(); }
 
@@ -57,14 +58,13 @@ class LightRefiner final : public Refiner {
 
 }  // namespace
 
-Result<std::unique_ptr<Refiner>> make_light_refiner(const StreamEntry& entry, uint32_t stream, Fill fill) {
-  // The largest bundle that an encoder makes; a directory that promises more nodes than its blocks can bring is refused
-  // before the decoder allocates them.
-  constexpr uint64_t most_nodes_a_block = 4096;
+Result<std::unique_ptr<Refiner>> make_light_refiner(const StreamEntry& entry, uint32_t stream, Fill fill,
+                                                    uint64_t& budget) {
+  // The decoder's and the atlas's 250 bytes a node, and as much again while holes are filled.
+  constexpr uint64_t bytes_a_node = 500;
   LW_TRY(layout, LightLayout::read(entry.parameters));
-  if (layout.shape.count() > 8 + most_nodes_a_block * entry.blocks)
-    return fail("light parameters", "promise more nodes than the stream has");
-  LW_TRY(decoder, LightDecoder::open(entry.parameters));
+  LW_CHECK(spend(budget, layout.shape.count() * bytes_a_node));
+  LW_TRY(decoder, LightDecoder::open(entry.parameters, entry.length));
   return std::make_unique<LightRefiner>(stream, fill, std::move(decoder));
 }
 

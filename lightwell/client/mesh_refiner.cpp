@@ -10,13 +10,6 @@
 namespace lightwell {
 namespace {
 
-/// One of a mesh's buffers, in its final size.
-struct Buffer {
-  uint32_t number = 0;  ///< as in RangeUpdate
-  Bytes bytes;
-  uint32_t stride = 4;  ///< bytes an element
-};
-
 template <typename T>
 Bytes bytes_of(std::span<const T> elements) {
   return {reinterpret_cast<const uint8_t*>(elements.data()), elements.size_bytes()};
@@ -25,14 +18,13 @@ Bytes bytes_of(std::span<const T> elements) {
 class MeshRefiner final : public Refiner {
  public:
   MeshRefiner(uint32_t stream, MeshDecoder decoder) : stream_(stream), decoder_(std::move(decoder)) {
-    using Semantic = AttributeLayout::Semantic;
     using Component = AttributeLayout::Component;
-    add_attribute(decoder_.positions(), {Semantic::position, Component::f32, 3, false, 12});
-    add_attribute(decoder_.normals(), {Semantic::normal, Component::i16, 3, true, 8});
-    add_attribute(decoder_.texcoords(0), {Semantic::texcoord_0, Component::f32, 2, false, 8});
-    add_attribute(decoder_.texcoords(1), {Semantic::texcoord_1, Component::f32, 2, false, 8});
-    add_attribute(decoder_.colors(), {Semantic::color, Component::u8, 4, true, 4});
-    indices_ = {RangeUpdate::indices, bytes_of(decoder_.indices()), 4};
+    const MeshLayout& layout = decoder_.layout();
+    attributes_.push_back({Semantic::position, Component::f32, 3, false, 12});
+    if (layout.has_normals) attributes_.push_back({Semantic::normal, Component::i16, 3, true, 8});
+    if (layout.has_texcoords[0]) attributes_.push_back({Semantic::texcoord_0, Component::f32, 2, false, 8});
+    if (layout.has_texcoords[1]) attributes_.push_back({Semantic::texcoord_1, Component::f32, 2, false, 8});
+    if (layout.has_colors) attributes_.push_back({Semantic::color, Component::u8, 4, true, 4});
   }
 
   bool accepts() const override { return !batch_; }
@@ -56,31 +48,41 @@ class MeshRefiner final : public Refiner {
     return DrawUpdate{stream_, decoder_.vertices(), decoder_.faces()};
   }
 
+  bool complete() const override { return decoder_.complete(); }
   uint64_t decoded() const override { return decoder_.faces(); }
   uint64_t total() const override { return decoder_.layout().faces; }
 
  private:
-  template <typename T>
-  void add_attribute(std::span<const T> elements, AttributeLayout layout) {
-    if (elements.empty()) return;
-    buffers_.push_back({static_cast<uint32_t>(attributes_.size()), bytes_of(elements), layout.stride});
-    attributes_.push_back(layout);
+  using Semantic = AttributeLayout::Semantic;
+
+  Bytes bytes_of_attribute(Semantic semantic) const {
+    switch (semantic) {
+      case Semantic::position: return bytes_of(decoder_.positions());
+      case Semantic::normal: return bytes_of(decoder_.normals());
+      case Semantic::texcoord_0: return bytes_of(decoder_.texcoords(0));
+      case Semantic::texcoord_1: return bytes_of(decoder_.texcoords(1));
+      case Semantic::color: return bytes_of(decoder_.colors());
+    }
+    return {};
   }
 
   void start_batch() {
     const MeshChanges changes = decoder_.take_changes();
-    for (const Buffer& buffer : buffers_) enqueue(buffer, changes.vertices);
-    enqueue(indices_, changes.indices);
-    for (const BufferRange& range : changes.rewired) enqueue(indices_, range);
+    for (uint32_t i = 0; i < attributes_.size(); i++)
+      enqueue(i, bytes_of_attribute(attributes_[i].semantic), attributes_[i].stride, changes.vertices);
+    const Bytes indices = bytes_of(decoder_.indices());
+    enqueue(RangeUpdate::indices, indices, 4, changes.indices);
+    for (const BufferRange& range : changes.rewired) enqueue(RangeUpdate::indices, indices, 4, range);
     changed_ = false;
     batch_ = true;
   }
 
-  void enqueue(const Buffer& buffer, BufferRange range) {
+  /// Some elements of `stride` bytes of a buffer, numbered as in RangeUpdate. The layout's limits keep offsets below
+  /// 4 GiB.
+  void enqueue(uint32_t buffer, Bytes bytes, uint32_t stride, BufferRange range) {
     if (range.count == 0) return;
-    const uint32_t offset = range.first * buffer.stride;
-    ranges_.push_back(
-        RangeUpdate{stream_, buffer.number, offset, buffer.bytes.subspan(offset, size_t(range.count) * buffer.stride)});
+    const uint32_t offset = range.first * stride;
+    ranges_.push_back(RangeUpdate{stream_, buffer, offset, bytes.subspan(offset, size_t(range.count) * stride)});
   }
 
   /// The first of the ranges, or as much of it as fits.
@@ -101,8 +103,6 @@ class MeshRefiner final : public Refiner {
   uint32_t stream_;
   MeshDecoder decoder_;
   std::vector<AttributeLayout> attributes_;
-  std::vector<Buffer> buffers_;
-  Buffer indices_;
   bool announced_ = false;
   bool changed_ = true;
   bool batch_ = false;              ///< a hand-over is under way
@@ -111,11 +111,13 @@ class MeshRefiner final : public Refiner {
 
 }  // namespace
 
-Result<std::unique_ptr<Refiner>> make_mesh_refiner(const StreamEntry& entry, uint32_t stream, Bytes bin) {
+Result<std::unique_ptr<Refiner>> make_mesh_refiner(const StreamEntry& entry, uint32_t stream, Bytes bin,
+                                                   uint64_t& budget) {
   ByteReader reader(entry.parameters);
   LW_TRY(layout, MeshLayout::read(reader));
   LW_TRY(places, BasePlaces::read(reader));
   if (reader.remaining() != 0) return fail("mesh parameters", "are too long");
+  LW_CHECK(spend(budget, layout.buffer_bytes()));
   LW_TRY(base, BaseArrays::read(layout, places, bin));
   LW_TRY(decoder, MeshDecoder::open(layout, base.view(), entry.length));
   return std::make_unique<MeshRefiner>(stream, std::move(decoder));

@@ -30,18 +30,27 @@ class Refiner {
   /// The next piece to hand over, of at most about `budget` bytes; none when all is handed over.
   virtual std::optional<Update> take(size_t budget) = 0;
 
+  /// True when the stream has brought all that its parameters promise.
+  virtual bool complete() const = 0;
   /// Faces or nodes that have been decoded, and that there will be; 0 for other kinds.
   virtual uint64_t decoded() const { return 0; }
   virtual uint64_t total() const { return 0; }
 };
 
-/// Reads a stream's parameters and makes its refiner. `bin` is the data of the opening's BIN chunk. Fails for a codec
-/// that this program does not know, and for sizes that the stream's length cannot hold; nothing of such a size is
-/// allocated.
-Result<std::unique_ptr<Refiner>> make_refiner(const Directory& directory, uint32_t stream, Bytes bin, Fill fill);
+/// Reads a stream's parameters and makes its refiner. `bin` is the data of the opening's BIN chunk; `budget` is how
+/// many bytes of buffers the streams may still ask for together, and becomes less. Fails for a codec that this program
+/// does not know, for sizes that the stream's length cannot hold, and for those beyond the budget; nothing of such a
+/// size is allocated.
+Result<std::unique_ptr<Refiner>> make_refiner(const Directory& directory, uint32_t stream, Bytes bin, Fill fill,
+                                              uint64_t& budget);
 
-Result<std::unique_ptr<Refiner>> make_mesh_refiner(const StreamEntry& entry, uint32_t stream, Bytes bin);
-Result<std::unique_ptr<Refiner>> make_light_refiner(const StreamEntry& entry, uint32_t stream, Fill fill);
-Result<std::unique_ptr<Refiner>> make_texture_refiner(const StreamEntry& entry, uint32_t stream);
+Result<std::unique_ptr<Refiner>> make_mesh_refiner(const StreamEntry& entry, uint32_t stream, Bytes bin,
+                                                   uint64_t& budget);
+Result<std::unique_ptr<Refiner>> make_light_refiner(const StreamEntry& entry, uint32_t stream, Fill fill,
+                                                    uint64_t& budget);
+Result<std::unique_ptr<Refiner>> make_texture_refiner(const StreamEntry& entry, uint32_t stream, uint64_t& budget);
+
+/// Takes bytes from a budget; fails when there are fewer.
+Result<void> spend(uint64_t& budget, uint64_t bytes);
 
 }  // namespace lightwell

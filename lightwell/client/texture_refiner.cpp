@@ -11,6 +11,8 @@ class TextureRefiner final : public Refiner {
 
   Result<void> append(Bytes payload) override { return decoder_.append(payload); }
 
+  bool complete() const override { return decoder_.complete(); }
+
   std::optional<Update> take(size_t) override {
     if (taken_ || !decoder_.complete()) return std::nullopt;
     taken_ = true;
@@ -26,9 +28,10 @@ class TextureRefiner final : public Refiner {
 
 }  // namespace
 
-Result<std::unique_ptr<Refiner>> make_texture_refiner(const StreamEntry& entry, uint32_t stream) {
+Result<std::unique_ptr<Refiner>> make_texture_refiner(const StreamEntry& entry, uint32_t stream, uint64_t& budget) {
   LW_TRY(parameters, decode_texture_parameters(entry.parameters));
   if (parameters.bytes > entry.length) return fail("texture parameters", "promise more bytes than the stream has");
+  LW_CHECK(spend(budget, parameters.bytes));
   return std::make_unique<TextureRefiner>(stream, parameters);
 }
 

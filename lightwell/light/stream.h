@@ -18,6 +18,10 @@ namespace lightwell {
 /// The codec number of what this header describes: records `moments` in the order of S08's slices.
 inline constexpr uint8_t light_codec_slices = 0;
 
+/// Nodes that a byte of a stream may stand for at most, so that a decoder's memory is bounded by the stream's length:
+/// at 200 bytes a node. Encoders pad a payload that is shorter; estimated light takes several bytes a node.
+inline constexpr uint32_t light_nodes_per_byte = 4;
+
 /// The parameters of a light stream (docs/format.md): all that is known before the first bundle.
 struct LightLayout {
   GridShape shape;
@@ -61,7 +65,9 @@ Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions
 /// push_pull fills a copy of them. Any bytes give a state or an error.
 class LightDecoder {
  public:
-  static Result<LightDecoder> open(Bytes parameters);
+  /// `stream_bytes` is the sum of all blocks' payloads, or more: parameters that promise more nodes than so many bytes
+  /// can hold are refused before anything is allocated. Errors: that, and LightLayout::read.
+  static Result<LightDecoder> open(Bytes parameters, uint64_t stream_bytes);
 
   const LightLayout& layout() const { return layout_; }
   /// Decodes the payload of the next bundle. After an error the state is what it was before.

@@ -66,8 +66,10 @@ LightDecoder::LightDecoder(const LightLayout& layout)
   }
 }
 
-Result<LightDecoder> LightDecoder::open(Bytes parameters) {
+Result<LightDecoder> LightDecoder::open(Bytes parameters, uint64_t stream_bytes) {
   LW_TRY(layout, LightLayout::read(parameters));
+  if ((layout.shape.count() - layout.corners.size()) / light_nodes_per_byte > stream_bytes)
+    return fail("light parameters", "promise more nodes than the stream's bytes can hold");
   return LightDecoder(layout);
 }
 

@@ -115,6 +115,8 @@ Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions
       field.set(node, record);
     }
     bundle.payload = writer.encoder.finish();
+    bundle.payload.resize(
+        std::max<size_t>(bundle.payload.size(), (bundle.nodes + light_nodes_per_byte - 1) / light_nodes_per_byte));
     stream.bundles.push_back(std::move(bundle));
   }
   estimate_errors(stream.bundles, squares);

@@ -28,19 +28,10 @@ void chain(std::vector<Spoke>& fan) {
 
 bool fits(size_t count, bool present, uint32_t wanted) { return count == (present ? wanted : 0); }
 
-}  // namespace
+// Room for twice as many elements as there are, but not for more than there will be.
+size_t more_room(size_t present, size_t final) { return std::min(std::max<size_t>(2 * present, 1024), final); }
 
-Refinement::Refinement(const MeshLayout& layout) : layout_(layout) {
-  position_buffer.resize(layout.vertices);
-  if (layout.has_normals) normal_buffer.resize(layout.vertices);
-  for (size_t set = 0; set < 2; set++)
-    if (layout.has_texcoords[set]) texcoord_buffers[set].resize(layout.vertices);
-  if (layout.has_colors) color_buffer.resize(layout.vertices);
-  index_buffer.resize(size_t(3) * layout.faces);
-  first_corner_.resize(layout.vertices, no_corner);
-  fan_size_.resize(layout.vertices);
-  next_corner_.resize(size_t(3) * (layout.faces - layout.loose_faces), no_corner);
-}
+}  // namespace
 
 Result<Refinement> Refinement::open(const MeshLayout& layout, const MeshArrays& base) {
   const uint32_t count = layout.base_vertices;
@@ -96,9 +87,12 @@ Vec<int, 2> Refinement::texcoord(int set, uint32_t vertex) const {
 }
 
 void Refinement::add(const NewVertex& vertex, bool begins_point) {
-  const uint32_t v = vertices_++;
+  const uint32_t v = vertices();
+  if (v == position_buffer.capacity()) reserve_vertices(more_room(v, layout_.vertices));
   if (begins_point) first_of_point_.push_back(v);
-  set_attributes(vertex);
+  add_attributes(vertex);
+  first_corner_.push_back(no_corner);
+  fan_size_.push_back(0);
 
   // The parent's list is made anew of the corners that stay.
   if (!vertex.fan.empty()) {
@@ -116,25 +110,42 @@ void Refinement::add(const NewVertex& vertex, bool begins_point) {
   for (const NewFace& face : vertex.faces) add_linked({v, face.a, face.b});
 }
 
-void Refinement::set_attributes(const NewVertex& vertex) {
-  const uint32_t v = vertices_ - 1;
-  for (int i = 0; i < 3; i++) position_buffer[v][i] = layout_.positions.value(vertex.position[i]);
+void Refinement::reserve_vertices(size_t count) {
+  position_buffer.reserve(count);
+  if (layout_.has_normals) normal_buffer.reserve(count);
+  for (size_t set = 0; set < 2; set++)
+    if (layout_.has_texcoords[set]) texcoord_buffers[set].reserve(count);
+  if (layout_.has_colors) color_buffer.reserve(count);
+  first_corner_.reserve(count);
+  fan_size_.reserve(count);
+}
+
+void Refinement::reserve_faces(size_t count) {
+  index_buffer.reserve(3 * count);
+  next_corner_.reserve(3 * std::min<size_t>(count, layout_.faces - layout_.loose_faces));
+}
+
+void Refinement::add_attributes(const NewVertex& vertex) {
+  Vec3f& position = position_buffer.emplace_back();
+  for (int i = 0; i < 3; i++) position[i] = layout_.positions.value(vertex.position[i]);
   if (layout_.has_normals) {
     const Vec3f n = normal_of(vertex.normal);
-    normal_buffer[v] = {normal_channel(n[0]), normal_channel(n[1]), normal_channel(n[2]), 0};
+    normal_buffer.push_back({normal_channel(n[0]), normal_channel(n[1]), normal_channel(n[2]), 0});
   }
   for (size_t set = 0; set < 2; set++)
-    if (layout_.has_texcoords[set])
-      for (int i = 0; i < 2; i++) texcoord_buffers[set][v][i] = layout_.texcoords[set].value(vertex.texcoords[set][i]);
-  if (layout_.has_colors) color_buffer[v] = vertex.color;
+    if (layout_.has_texcoords[set]) {
+      Vec2f& texcoord = texcoord_buffers[set].emplace_back();
+      for (int i = 0; i < 2; i++) texcoord[i] = layout_.texcoords[set].value(vertex.texcoords[set][i]);
+    }
+  if (layout_.has_colors) color_buffer.push_back(vertex.color);
 }
 
 void Refinement::add_linked(const Face& face) {
-  const uint32_t first = 3 * faces_++;
-  for (uint32_t k = 0; k < 3; k++) {
-    index_buffer[first + k] = face[k];
-    link(first + k);
-  }
+  const auto first = static_cast<uint32_t>(index_buffer.size());
+  if (index_buffer.size() == index_buffer.capacity()) reserve_faces(more_room(faces(), layout_.faces));
+  index_buffer.insert(index_buffer.end(), face.begin(), face.end());
+  next_corner_.resize(index_buffer.size(), no_corner);
+  for (uint32_t k = 0; k < 3; k++) link(first + k);
 }
 
 void Refinement::link(uint32_t corner) {
@@ -143,15 +154,12 @@ void Refinement::link(uint32_t corner) {
   fan_size_[v]++;
 }
 
-void Refinement::add_loose(const Face& face) {
-  std::copy(face.begin(), face.end(), index_buffer.begin() + size_t(3) * faces_);
-  faces_++;
-}
+void Refinement::add_loose(const Face& face) { index_buffer.insert(index_buffer.end(), face.begin(), face.end()); }
 
 MeshChanges Refinement::take_changes() {
   MeshChanges changes;
-  changes.vertices = {reported_vertices_, vertices_ - reported_vertices_};
-  changes.indices = {3 * reported_faces_, 3 * (faces_ - reported_faces_)};
+  changes.vertices = {reported_vertices_, vertices() - reported_vertices_};
+  changes.indices = {3 * reported_faces_, 3 * (faces() - reported_faces_)};
   std::sort(rewired_.begin(), rewired_.end());
   for (const uint32_t corner : rewired_) {
     auto& ranges = changes.rewired;
@@ -161,8 +169,8 @@ MeshChanges Refinement::take_changes() {
       ranges.back().count = corner - ranges.back().first + 1;
   }
   rewired_.clear();
-  reported_vertices_ = vertices_;
-  reported_faces_ = faces_;
+  reported_vertices_ = vertices();
+  reported_faces_ = faces();
   return changes;
 }
 

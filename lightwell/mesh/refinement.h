@@ -34,19 +34,18 @@ struct NewVertex {
   Color8 color{};
 };
 
-/// A mesh between its coarsest and its final level, in buffers of final size, with the faces at each vertex. Encoder
-/// and decoder keep equal ones.
+/// A mesh between its coarsest and its final level, with the faces at each vertex. Encoder and decoder keep equal ones.
 class Refinement {
  public:
   /// The coarsest level. Errors: arrays that do not fit the layout.
   static Result<Refinement> open(const MeshLayout& layout, const MeshArrays& base);
 
   const MeshLayout& layout() const { return layout_; }
-  uint32_t vertices() const { return vertices_; }
-  uint32_t faces() const { return faces_; }
+  uint32_t vertices() const { return static_cast<uint32_t>(position_buffer.size()); }
+  uint32_t faces() const { return static_cast<uint32_t>(index_buffer.size() / 3); }
   /// The vertices of a point: [first_of_point(i), first_of_point(i + 1)).
   uint32_t points() const { return static_cast<uint32_t>(first_of_point_.size()); }
-  uint32_t first_of_point(uint32_t point) const { return point < points() ? first_of_point_[point] : vertices_; }
+  uint32_t first_of_point(uint32_t point) const { return point < points() ? first_of_point_[point] : vertices(); }
   uint32_t fan_size(uint32_t vertex) const { return fan_size_[vertex]; }
   /// The faces at a vertex, ordered so that a face follows its neighbour; depends on nothing but the splits so far.
   void gather_fan(uint32_t vertex, std::vector<Spoke>& fan) const;
@@ -54,10 +53,10 @@ class Refinement {
   Vec3i position(uint32_t vertex) const;
   Vec<int, 2> texcoord(int set, uint32_t vertex) const;
 
-  /// Adds a vertex and rewires its faces. There must be room for it and for its faces; its parent, its fan and the
-  /// corners of its new faces must be what the mesh has (the vertex itself may be a corner).
+  /// Adds a vertex and rewires its faces. Its parent, its fan and the other corners of its new faces must be what the
+  /// mesh has.
   void add(const NewVertex& vertex, bool begins_point);
-  /// Adds a face that no split will ever touch. There must be room for it.
+  /// Adds a face that no split will ever touch; add() may not follow.
   void add_loose(const Face& face);
 
   std::vector<Vec3f> position_buffer;
@@ -69,14 +68,15 @@ class Refinement {
   MeshChanges take_changes();
 
  private:
-  explicit Refinement(const MeshLayout& layout);
+  explicit Refinement(const MeshLayout& layout) : layout_(layout) {}
   void add_base(const MeshArrays& base);
-  void set_attributes(const NewVertex& vertex);
+  void reserve_vertices(size_t count);
+  void reserve_faces(size_t count);
+  void add_attributes(const NewVertex& vertex);
   void add_linked(const Face& face);
   void link(uint32_t corner);
 
   MeshLayout layout_;
-  uint32_t vertices_ = 0, faces_ = 0;
   std::vector<uint32_t> first_of_point_;
   // The corners at each vertex as a list through the index buffer's places.
   std::vector<uint32_t> first_corner_, next_corner_, fan_size_;

@@ -16,9 +16,10 @@ namespace lightwell {
 
 struct ProgressiveMesh;
 
-/// Vertices and faces that a byte of a stream may stand for at most: a decoder knows how much memory a stream may ask
-/// for. Encoders pad a payload that is shorter.
-inline constexpr uint32_t elements_per_byte = 16;
+/// Vertices and faces that a byte of a payload may stand for at most, so that a decoder's memory is bounded by the
+/// bytes that have arrived: at 60 bytes a vertex and 24 a face. Encoders pad a payload that is shorter; a flat grid of
+/// squares has 2.5, scans have 0.5.
+inline constexpr uint32_t elements_per_byte = 4;
 
 /// What a client must know of a mesh stream before its first block: the stream's parameters in docs/format.md.
 struct MeshLayout {
@@ -31,7 +32,9 @@ struct MeshLayout {
   std::array<Lattice, 2> texcoords;
   float base_error = 0;  ///< distance of the coarsest level from the final one, in the mesh's units; an estimate
 
-  /// Says what is impossible about the counts and lattices, if anything is.
+  /// Bytes of the final level's buffers as MeshDecoder has them.
+  uint64_t buffer_bytes() const;
+  /// Says what is impossible about the counts and lattices, if anything is. No buffer may reach 4 GiB.
   Result<void> check() const;
   void write(ByteWriter& writer) const;
   /// Reads what write() wrote and checks it. Errors: too short, an unknown flag, check().
@@ -79,13 +82,12 @@ struct MeshChanges {
   std::vector<BufferRange> rewired;  ///< indices of older faces; ascending, gaps of up to 256 indices included
 };
 
-/// Refines a mesh block by block in buffers that have their final size from the start and are ready for the GPU. After
-/// every block the first faces() faces refer to the first vertices() vertices only: each level can be drawn.
+/// Refines a mesh block by block in buffers that are ready for the GPU. They grow with what arrives: a layout that lies
+/// costs nothing. After every block the faces refer to vertices that are there: each level can be drawn.
 class MeshDecoder {
  public:
-  /// Allocates the buffers and fills in the coarsest level. `stream_bytes` is the sum of all blocks' payloads: a layout
-  /// that promises more than so many bytes can hold is refused before anything is allocated. Errors: that, and a base
-  /// that does not fit the layout.
+  /// Fills in the coarsest level. `stream_bytes` is the sum of all blocks' payloads, or more: a layout that promises
+  /// more than so many bytes can hold is an error, as is a base that does not fit the layout.
   static Result<MeshDecoder> open(const MeshLayout& layout, const MeshArrays& base, uint64_t stream_bytes);
 
   MeshDecoder(MeshDecoder&&) noexcept;
@@ -101,7 +103,7 @@ class MeshDecoder {
   uint32_t faces() const;
   bool complete() const;  ///< the final level is reached
 
-  /// The buffers, of their final size; beyond vertices() and faces() they hold zeros.
+  /// The buffers: vertices() elements, and three indices for each of faces(). append() may move them.
   std::span<const Vec3f> positions() const;
   std::span<const Normal16> normals() const;  ///< signed normalised x, y, z and 0; empty without normals
   std::span<const Vec2f> texcoords(int set) const;

@@ -9,9 +9,11 @@
 namespace lightwell {
 namespace {
 
-constexpr uint32_t most_elements = 1u << 30;
-// Visits of the sweep for each vertex. An encoder's pass refines at least one point in 128, but for the first.
-constexpr uint64_t visits_per_vertex = 256;
+// So that the place of every byte in a buffer fits into 32 bits; a vertex' position and a face take 12 bytes each.
+constexpr uint32_t most_elements = 0xffffffff / 12;
+// Visits of all passes for each point that there is. An encoder's pass refines at least one point in 128, but for the
+// first.
+constexpr uint64_t visits_per_point = 256;
 
 tl::unexpected<Error> corrupt(std::string reason) { return fail("mesh block", std::move(reason)); }
 
@@ -37,6 +39,15 @@ Result<MeshLayout> MeshLayout::read(ByteReader& reader) {
   return layout;
 }
 
+uint64_t MeshLayout::buffer_bytes() const {
+  uint64_t vertex = sizeof(Vec3f);
+  if (has_normals) vertex += sizeof(Normal16);
+  for (const bool has_set : has_texcoords)
+    if (has_set) vertex += sizeof(Vec2f);
+  if (has_colors) vertex += sizeof(Color8);
+  return vertices * vertex + faces * uint64_t(sizeof(Face));
+}
+
 Result<void> MeshLayout::check() const {
   for (const Lattice& lattice : {positions, texcoords[0], texcoords[1]})
     if (lattice.exponent < Lattice::min_exponent || lattice.exponent > Lattice::max_exponent)
@@ -54,6 +65,8 @@ struct MeshDecoder::State {
   Result<void> add_point(SplitReader& reader);
   Result<void> add_vertex(SplitReader& reader, uint32_t parent_point, bool begins_point);
   Result<void> add_loose_face(SplitReader& reader);
+  /// Takes vertices and faces from what the payload may add.
+  Result<void> spend(size_t elements);
 
   Refinement mesh;
   Sweep sweep;
@@ -61,6 +74,7 @@ struct MeshDecoder::State {
   uint32_t left_of_pass = 0;
   bool again = false;
   bool failed = false;
+  uint64_t payload_elements = 0;  ///< vertices and faces that the present payload may still add
   NewVertex vertex;
 };
 
@@ -82,6 +96,7 @@ Result<void> MeshDecoder::append(Bytes payload) {
 
 Result<void> MeshDecoder::State::decode(Bytes payload) {
   SplitReader reader(payload);
+  payload_elements = uint64_t(payload.size()) * elements_per_byte;
   const uint32_t splits = coder.count(reader, 0);
   for (uint32_t i = 0; i < splits; i++) LW_CHECK(add_point(reader));
   const uint32_t loose = coder.count(reader, 0);
@@ -96,7 +111,7 @@ Result<void> MeshDecoder::State::add_point(SplitReader& reader) {
     if (left_of_pass == 0 || mesh.points() == 0) return corrupt("an empty pass");
     sweep.begin_pass();
     again = false;
-    if (sweep.work() > visits_per_vertex * mesh.layout().vertices) return corrupt("too many passes");
+    if (sweep.work() > visits_per_point * mesh.points()) return corrupt("too many passes");
   }
   while (!coder.splits(reader, mesh.fan_size(mesh.first_of_point(sweep.point())), again, false)) {
     again = false;
@@ -121,6 +136,7 @@ Result<void> MeshDecoder::State::add_vertex(SplitReader& reader, uint32_t parent
   if (!coder.new_vertex(reader, mesh, parent_point, begins_point, vertex)) return corrupt("an impossible split");
   if (reader.overrun()) return corrupt("too short");
   if (vertex.faces.size() > layout.faces - layout.loose_faces - mesh.faces()) return corrupt("too many faces");
+  LW_CHECK(spend(1 + vertex.faces.size()));
   mesh.add(vertex, begins_point);
   return {};
 }
@@ -136,7 +152,14 @@ Result<void> MeshDecoder::State::add_loose_face(SplitReader& reader) {
     if (v >= mesh.vertices()) return corrupt("a corner out of range");
   }
   if (reader.overrun()) return corrupt("too short");
+  LW_CHECK(spend(1));
   mesh.add_loose(face);
+  return {};
+}
+
+Result<void> MeshDecoder::State::spend(size_t elements) {
+  if (elements > payload_elements) return corrupt("adds more than its bytes may hold");
+  payload_elements -= elements;
   return {};
 }
 

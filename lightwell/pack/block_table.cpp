@@ -12,6 +12,13 @@ namespace {
 constexpr uint32_t extents_per_page = rows_per_page + 1;  // 64 blocks and the page behind them
 constexpr uint32_t row_bytes = 12;
 
+/// What so many blocks without a row take at least: their rows, a check for each page, a byte and a check for each
+/// block.
+uint64_t least_bytes(uint32_t blocks) {
+  const uint32_t pages = (blocks + rows_per_page - 1) / rows_per_page;
+  return uint64_t(blocks) * (row_bytes + 1 + block_check_bytes) + uint64_t(pages) * block_check_bytes;
+}
+
 }  // namespace
 
 std::optional<BlockTable> BlockTable::place(const StreamEntry& entry, uint64_t data_begin) {
@@ -49,16 +56,17 @@ Result<void> BlockTable::add_page(Bytes payload) {
   return {};
 }
 
-/// Places the blocks of one page's rows and the page behind them. False when they do not fit into the stream, or are
-/// the last ones and do not fill it.
+/// Places the blocks of one page's rows and the page behind them. False when they do not fit into the stream with what
+/// must follow, or are the last ones and do not fill it.
 bool BlockTable::append(std::span<const BlockRow> rows) {
   uint64_t at = begins_.back();
   for (const BlockRow& row : rows) begins_.push_back(at += row.length);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   const uint32_t unplaced = blocks_ - static_cast<uint32_t>(rows_.size());
   if (unplaced == 0) return at == end_;
-  begins_.push_back(at += std::min(unplaced, rows_per_page) * row_bytes + block_check_bytes);
-  return at < end_;
+  if (at + least_bytes(unplaced) > end_) return false;
+  begins_.push_back(at + std::min(unplaced, rows_per_page) * row_bytes + block_check_bytes);
+  return true;
 }
 
 std::vector<BlockRow> read_rows(ByteReader& reader, uint32_t count) {

@@ -5,8 +5,10 @@
 
 #include <cstdlib>
 
+#include "lightwell/pack/opening.h"
 #include "tests/client/sample_pack.h"
 #include "tests/client/simulated_network.h"
+#include "tests/pack/pack_samples.h"
 
 namespace lightwell {
 namespace {
@@ -163,6 +165,30 @@ TEST(Network, DamagedFileIsNamed) {
   SimulatedNetwork network({}, 1, damaged);
   const ReceivedScene scene = network.run({});
   EXPECT_NE(scene.failure.find("stream 3, block"), std::string::npos) << scene.failure;
+}
+
+// A pack whose streams keep no promise but those of the container: the blocks that are there are good.
+TEST(Network, IncompleteStreamIsNamed) {
+  const PackReader reader = PackReader::open(from_memory(sample().file), sample().file.size()).value();
+  const std::vector<StreamEntry>& entries = reader.directory().streams;
+  for (size_t cut = 0; cut < entries.size(); cut++)
+    for (const bool all : {false, true}) {
+      if (entries[cut].blocks == 0) continue;  // the walls are complete from the start
+      std::vector<PackStream> streams;
+      for (size_t i = 0; i < entries.size(); i++) {
+        streams.push_back({entries[i].kind, entries[i].codec, entries[i].error, entries[i].parameters, {}});
+        const uint32_t left = i != cut ? entries[i].blocks : all ? 0 : entries[i].blocks - 1;
+        for (uint32_t block = 0; block < left; block++)
+          streams[i].blocks.push_back(
+              {reader.block(i, block).value(), reader.rows(i)[block].adds, reader.rows(i)[block].error});
+      }
+      const Bytes bin = glb_chunks(reader.opening()).bin;
+      const std::vector<uint8_t> file = make_pack({bin.begin(), bin.end()}, std::move(streams));
+      SimulatedNetwork network({}, 1, file);
+      const ReceivedScene scene = network.run({});
+      EXPECT_FALSE(scene.complete);
+      EXPECT_NE(scene.failure.find("stream " + std::to_string(cut)), std::string::npos) << scene.failure;
+    }
 }
 
 TEST(Network, FileIsReplaced) {

@@ -147,7 +147,8 @@ std::vector<uint8_t> atlas_of(const LightDecoder& decoder, Fill fill) {
 }
 
 std::vector<uint8_t> decode_light(const PackReader& reader, uint32_t stream) {
-  LightDecoder decoder = LightDecoder::open(reader.directory().streams[stream].parameters).value();
+  const StreamEntry& entry = reader.directory().streams[stream];
+  LightDecoder decoder = LightDecoder::open(entry.parameters, entry.length).value();
   append_all(decoder, reader, stream);
   return atlas_of(decoder, Fill::none);
 }
@@ -209,7 +210,7 @@ std::vector<std::vector<uint8_t>> atlases_on_the_way(Bytes pack) {
   for (uint32_t stream = 0; stream < reader.directory().streams.size(); stream++) {
     const StreamEntry& entry = reader.directory().streams[stream];
     if (entry.kind != StreamKind::light) continue;
-    LightDecoder decoder = LightDecoder::open(entry.parameters).value();
+    LightDecoder decoder = LightDecoder::open(entry.parameters, entry.length).value();
     add(decoder);
     for (uint32_t block = 0; block < entry.blocks; block++) {
       const auto appended = decoder.append(reader.block(stream, block).value());

@@ -16,8 +16,14 @@ std::vector<uint8_t> parameters(const LightLayout& layout) {
   return writer.release();
 }
 
+uint64_t stream_bytes(const LightStream& stream) {
+  uint64_t bytes = 0;
+  for (const LightBundle& bundle : stream.bundles) bytes += bundle.payload.size();
+  return bytes;
+}
+
 LightDecoder opened(const LightStream& stream) {
-  return std::move(LightDecoder::open(parameters(stream.layout)).value());
+  return std::move(LightDecoder::open(parameters(stream.layout), stream_bytes(stream)).value());
 }
 
 TEST(LightOrder, SendsEveryNodeOnceAndSlicesAlike) {
@@ -164,6 +170,20 @@ TEST(LightStream, RefusesGridsBeyondTheLimits) {
   grid.moments.resize(grid.shape.count());
   grid.valid.assign(grid.shape.count(), 1);
   EXPECT_FALSE(encode_light(grid));
+}
+
+// Dark light costs next to nothing, so that the encoder has to pad it.
+TEST(LightStream, ABytesWorthOfNodesIsLimited) {
+  LightGrid grid;
+  grid.shape.nodes = {{32, 32, 32}};
+  grid.moments.resize(grid.shape.count());
+  grid.valid.assign(grid.shape.count(), 1);
+  const LightStream stream = encode_light(grid).value();
+  const uint64_t least = (grid.shape.count() - 8) / light_nodes_per_byte;
+  EXPECT_GE(stream_bytes(stream), least);
+  EXPECT_LT(stream_bytes(stream), least + least / 10) << "nothing but padding";
+  EXPECT_TRUE(LightDecoder::open(parameters(stream.layout), least));
+  EXPECT_FALSE(LightDecoder::open(parameters(stream.layout), least - 1));
 }
 
 // The estimate falls to zero, and half way it is the true error of the same expectation within a factor of two: it is

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "lightwell/mesh/split_coder.h"
 #include "tests/mesh/level.h"
 #include "tests/mesh/shapes.h"
 
@@ -36,6 +37,8 @@ MeshDecoder open(const EncodedMesh& encoded) {
 
 // Every index that is drawn names a vertex that is there.
 void expect_drawable(const MeshDecoder& decoder) {
+  ASSERT_EQ(decoder.positions().size(), decoder.vertices());
+  ASSERT_EQ(decoder.indices().size(), 3 * decoder.faces());
   ASSERT_LE(decoder.vertices(), decoder.layout().vertices);
   ASSERT_LE(decoder.faces(), decoder.layout().faces);
   for (uint32_t i = 0; i < 3 * decoder.faces(); i++) ASSERT_LT(decoder.indices()[i], decoder.vertices());
@@ -125,7 +128,7 @@ TEST(MeshStream, ScanNeedsFewBitsAndOneBlockSizeIsAsGoodAsAnother) {
 TEST(MeshStream, ChangesAreAllThatChanges) {
   const Stream stream = stream_of(knot(60, 20), 50, 100);
   MeshDecoder decoder = open(stream.encoded);
-  std::vector<uint32_t> copy(decoder.indices().size());
+  std::vector<uint32_t> copy(3 * size_t(decoder.layout().faces));
   uint32_t vertices = 0;
   const auto follow = [&] {
     const MeshChanges changes = decoder.take_changes();
@@ -193,6 +196,44 @@ TEST(MeshStream, NoiseIsNoStream) {
   }
 }
 
+// A payload that says nothing but what its models find likely, so that a byte of it makes hundreds of vertices.
+std::vector<uint8_t> likely_splits(const MeshLayout& layout, const MeshArrays& base, uint32_t splits) {
+  Refinement mesh = Refinement::open(layout, base).value();
+  SplitCoder coder;
+  SplitWriter writer;
+  coder.count(writer, splits);  // of the block
+  coder.count(writer, splits);  // of the pass
+  for (uint32_t i = 0; i < splits; i++) {
+    coder.splits(writer, mesh.fan_size(0), i > 0, true);
+    NewVertex vertex;
+    mesh.gather_fan(0, vertex.fan);
+    vertex.moves.assign(vertex.fan.size(), 0);
+    vertex.position = mesh.position(0);
+    EXPECT_TRUE(coder.new_vertex(writer, mesh, 0, true, vertex));
+    mesh.add(vertex, true);
+    coder.one_more(writer, 1, false);
+  }
+  coder.count(writer, 0);
+  return writer.finish();
+}
+
+TEST(MeshStream, ABytesWorthOfVerticesAndFacesIsLimited) {
+  EncodedMesh encoded = stream_of(tetrahedron({}, 1)).encoded;
+  encoded.layout.vertices = 100000;
+  const OpenedBase base(encoded.base);
+  std::vector<uint8_t> payload = likely_splits(encoded.layout, base.arrays(), 10000);
+  ASSERT_LT(payload.size() * elements_per_byte, 10000u);
+  const auto decode = [&] {
+    MeshDecoder decoder = std::move(MeshDecoder::open(encoded.layout, base.arrays(), 1 << 20).value());
+    const bool taken = decoder.append(payload).has_value();
+    EXPECT_LE(decoder.vertices(), 4 + payload.size() * elements_per_byte);
+    return taken;
+  };
+  EXPECT_FALSE(decode());
+  payload.resize(10000 / elements_per_byte);  // padding makes it good
+  EXPECT_TRUE(decode());
+}
+
 TEST(MeshLayout, RoundTripsAndRefusesPrefixes) {
   const MeshLayout layout = stream_of(seamed_sphere(12, 16)).encoded.layout;
   ByteWriter writer;
@@ -210,7 +251,17 @@ TEST(MeshLayout, RoundTripsAndRefusesPrefixes) {
   EXPECT_EQ(reader.remaining(), 0u);
 }
 
-TEST(MeshLayout, LiesAreRefusedBeforeAnythingIsAllocated) {
+// Nothing is allocated for what a layout only promises: 2^28 vertices would be 16 GB.
+TEST(MeshLayout, PromisesCostNothing) {
+  EncodedMesh encoded = stream_of(seamed_sphere(12, 16)).encoded;
+  encoded.layout.vertices = 1 << 28;
+  const OpenedBase base(encoded.base);
+  const auto decoder = MeshDecoder::open(encoded.layout, base.arrays(), uint64_t(1) << 40);
+  ASSERT_TRUE(decoder);
+  EXPECT_EQ(decoder->positions().size(), encoded.layout.base_vertices);
+}
+
+TEST(MeshLayout, LiesAreRefused) {
   const EncodedMesh encoded = stream_of(seamed_sphere(12, 16)).encoded;
   const OpenedBase base(encoded.base);
   const auto opens = [&](auto lie) {
@@ -221,6 +272,16 @@ TEST(MeshLayout, LiesAreRefusedBeforeAnythingIsAllocated) {
   EXPECT_TRUE(opens([](MeshLayout&) {}));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.vertices = 1 << 29; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.faces = 0xffffffffu; }));
+  // The offset of a byte in a buffer must fit into 32 bits.
+  const auto possible = [&](auto lie) {
+    MeshLayout layout = encoded.layout;
+    lie(layout);
+    return layout.check().has_value();
+  };
+  EXPECT_TRUE(possible([](MeshLayout& l) { l.vertices = 0xffffffffu / 12; }));
+  EXPECT_FALSE(possible([](MeshLayout& l) { l.vertices = 0xffffffffu / 12 + 1; }));
+  EXPECT_TRUE(possible([](MeshLayout& l) { l.faces = 0xffffffffu / 12; }));
+  EXPECT_FALSE(possible([](MeshLayout& l) { l.faces = 0xffffffffu / 12 + 1; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.loose_faces = l.faces + 1; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.vertices = l.base_vertices - 1; }));
   EXPECT_FALSE(opens([](MeshLayout& l) { l.base_vertices++; }));

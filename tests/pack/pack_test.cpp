@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lightwell/base/crc32c.h"
+#include "lightwell/pack/block_table.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
 #include "tests/pack/pack_samples.h"
@@ -172,6 +173,20 @@ TEST(Directory, EveryFieldIsChecked) {
   EXPECT_FALSE(read(stream + 24, 11)) << "a block longer than the stream";
   EXPECT_FALSE(read(stream + 24, 4)) << "a block without a payload";
   EXPECT_FALSE(read(stream + 24 + 8, 0xbf800000)) << "a negative error";
+}
+
+// The shortest stream of n blocks: payloads of one byte. A stream that is shorter cannot have so many, which shows
+// before anybody makes room for them.
+TEST(BlockTable, AStreamIsAsLongAsItsBlocksAndPages) {
+  for (const uint32_t blocks : {1u, 64u, 65u, 128u, 129u, 1025u}) {
+    const PackBlock block{{1}, 1, 0};
+    const PackStream stream{StreamKind::mesh, 0, 1, {}, std::vector<PackBlock>(blocks, block)};
+    const std::vector<uint8_t> file = make_pack({}, {stream});
+    StreamEntry entry = PackReader::open(from_memory(file), file.size())->directory().streams[0];
+    EXPECT_TRUE(BlockTable::place(entry, 0)) << blocks;
+    entry.length--;
+    EXPECT_FALSE(BlockTable::place(entry, 0)) << blocks;
+  }
 }
 
 TEST(Directory, AnotherVersionIsRefusedByName) {

@@ -130,7 +130,9 @@ void fill_and_look_up(const LightDecoder& decoder, Digest& digest) {
 }
 
 void light(const Case& one, Digest& digest) {
-  auto decoder = LightDecoder::open(one.parts[0]);
+  uint64_t stream_bytes = 0;
+  for (size_t i = 1; i < one.parts.size(); i++) stream_bytes += one.parts[i].size();
+  auto decoder = LightDecoder::open(one.parts[0], stream_bytes);
   if (!decoder) return digest.add(decoder.error());
   fill_and_look_up(*decoder, digest);
   for (size_t i = 1; i < one.parts.size(); i++) {
