@@ -33,8 +33,9 @@ Shape measure(const TraceScene& scene, const Luminaire& luminaire) {
   for (const uint32_t face : luminaire.faces) {
     const auto corners = scene.corners(static_cast<uint32_t>(luminaire.index), face);
     const Vec3d a = corners[0].cast<double>(), b = corners[1].cast<double>(), c = corners[2].cast<double>();
+    const Vec3d front = scene.face_normal(static_cast<uint32_t>(luminaire.index), corners).cast<double>();
     shape.points.insert(shape.points.end(), {a, b, c});
-    shape.facets.push_back({(a + b + c) / 3.0, cross(b - a, c - a) * 0.5});
+    shape.facets.push_back({(a + b + c) / 3.0, front * (length(cross(b - a, c - a)) / 2)});
     shape.area += length(shape.facets.back().normal);
     shape.normal_sum += shape.facets.back().normal;
   }
@@ -90,12 +91,15 @@ std::optional<ClientLamp> as_rectangle(const Shape& shape) {
   return lamp;
 }
 
-// The sphere of the surface's own area; none when more than a tenth of it does not look away from the centre.
+// The sphere of the surface's own area. None when the surface is open, or when more than a tenth of it lies in planes
+// less than half as far from the centre as its farthest point: a cube passes (0.58), a tube or a dome does not.
 std::optional<ClientLamp> as_sphere(const Shape& shape) {
-  double outward = 0;
+  if (length(shape.normal_sum) > 0.1 * shape.area) return {};
+  const double farthest = extent(shape);
+  double round = 0;
   for (const Shape::Facet& facet : shape.facets)
-    if (dot(facet.normal, facet.center - shape.center) > 0) outward += length(facet.normal);
-  if (outward < 0.9 * shape.area) return {};
+    if (dot(normalized(facet.normal), facet.center - shape.center) > farthest / 2) round += length(facet.normal);
+  if (round < 0.9 * shape.area) return {};
   ClientLamp lamp;
   lamp.kind = ClientLamp::Kind::sphere;
   lamp.radius = static_cast<float>(std::sqrt(shape.area / (4 * std::numbers::pi)));
@@ -111,7 +115,8 @@ std::optional<ClientLamp> describe_surface(const TraceScene& scene, const Lumina
   lamp->name = scene.scene().material_of(scene.scene().primitives[static_cast<size_t>(instance.primitive)]).name;
   lamp->center = luminaire.center;
   lamp->two_sided = luminaire.double_sided && lamp->kind == ClientLamp::Kind::rectangle;
-  lamp->radiance = luminaire.power / (pi * luminaire.area * (lamp->two_sided ? 2.0f : 1.0f));
+  // Of what a double-sided surface sends out, each side has half; nobody sees the inside of a sphere.
+  lamp->radiance = luminaire.power / (pi * luminaire.area * (luminaire.double_sided ? 2.0f : 1.0f));
   lamp->node = instance.node;
   return lamp;
 }

@@ -8,6 +8,7 @@
 #include "lightwell/bake/tracks.h"
 #include "lightwell/base/assert.h"
 #include "lightwell/base/parallel.h"
+#include "lightwell/light/stream.h"
 #include "lightwell/trace/photons.h"
 
 namespace lightwell {
@@ -64,7 +65,8 @@ Worker trace_photons(const TraceScene& scene, const Solids& solids, const GridSh
                      const LightBakeOptions& options, Progress& progress) {
   const size_t threads = static_cast<size_t>(options.threads > 0 ? options.threads : default_threads());
   const size_t affordable = std::max<size_t>(1, sums_limit / (2 * TrackSums::bytes(shape)));
-  std::vector<Worker> workers(std::min(threads, affordable), Worker(shape, solids));
+  std::vector<Worker> workers;
+  for (size_t i = 0; i < std::min(threads, affordable); i++) workers.emplace_back(shape, solids);
   const float flux = reference_flux(scene);
   std::atomic<uint64_t> done = 0;
   progress.stage("light", static_cast<double>(options.photons), "photons");
@@ -107,6 +109,11 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   const auto start = std::chrono::steady_clock::now();
   LightGrid grid;
   grid.shape = GridShape::over(scene.lights().region(), options.nodes);
+  if (grid.shape.count() > LightLayout::most_nodes) {
+    return fail("grid", std::to_string(options.nodes) + " nodes on the longest axis are " +
+                            std::to_string(grid.shape.count()) + " in all, a pack holds " +
+                            std::to_string(LightLayout::most_nodes));
+  }
   Solids solids(scene);
   const Worker traced = trace_photons(scene, solids, grid.shape, options, progress);
   if (progress.cancelled()) return fail("light", "cancelled");

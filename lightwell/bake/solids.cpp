@@ -2,23 +2,67 @@
 #include "lightwell/bake/solids.h"
 
 #include "lightwell/trace/connected_faces.h"
+#include "lightwell/trace/sampling.h"
 
 namespace lightwell {
+namespace {
+
+/// Of the volume of a ball with the same surface: a sheet has none, a pane of 1 m and 4 mm 2 %.
+constexpr double least_volume = 1e-3;
+/// Fewer photons say nothing of one in a thousand.
+constexpr uint64_t least_hits = 1000;
+
+/// What the faces of a piece add up to.
+struct Extent {
+  double area = 0;
+  Vec3d center{};      // times the area
+  Vec3d normal_sum{};  // halves of cross products
+  double moment = 0;   // the volume against the origin
+};
+
+Extent& operator+=(Extent& sum, const std::array<Vec3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vec3d normal = cross(b - a, c - a) * 0.5;
+  const double area = length(normal);
+  sum.area += area;
+  sum.center += (a + b + c) * (area / 3);
+  sum.normal_sum += normal;
+  sum.moment += dot(a, normal) / 3;
+  return sum;
+}
+
+/// The volume below the surface against its own centre, so that an open one has no other for standing elsewhere.
+bool encloses_volume(const Extent& piece) {
+  if (!(piece.area > 0)) return false;
+  const double volume = piece.moment - dot(piece.center / piece.area, piece.normal_sum) / 3;
+  const double ball = piece.area * std::sqrt(piece.area / (36 * static_cast<double>(pi)));
+  return std::abs(volume) > least_volume * ball;
+}
+
+}  // namespace
 
 Solids::Solids(const TraceScene& scene)
-    : scene_(scene),
-      pieces_of_faces_(scene.scene().primitives.size()),
-      first_piece_(scene.scene().instances.size(), none) {
-  size_t pieces = 0;
-  for (uint32_t i = 0; i < first_piece_.size(); i++) {
+    : scene_(scene), pieces_of_faces_(scene.scene().primitives.size()), first_piece_(scene.scene().primitives.size()) {
+  for (uint32_t i = 0; i < scene.scene().instances.size(); i++) {
     if (!scene.traced(i) || !scene.material(i).double_sided) continue;
-    const size_t primitive = static_cast<size_t>(scene.scene().instances[i].primitive);
-    std::vector<uint32_t>& of_faces = pieces_of_faces_[primitive];
-    if (of_faces.empty()) of_faces = connected_faces(scene.scene().primitives[primitive].mesh);
-    first_piece_[i] = static_cast<int>(pieces);
-    pieces += *std::max_element(of_faces.begin(), of_faces.end()) + 1;
+    const auto primitive = static_cast<size_t>(scene.scene().instances[i].primitive);
+    if (!pieces_of_faces_[primitive].empty()) continue;
+    const Mesh& mesh = scene.scene().primitives[primitive].mesh;
+    pieces_of_faces_[primitive] = connected_faces(mesh);
+    first_piece_[primitive] = encloses_.size();
+    add_pieces(mesh, pieces_of_faces_[primitive]);
   }
-  solid_.assign(pieces, 0);
+  solid_.assign(encloses_.size(), 0);
+}
+
+void Solids::add_pieces(const Mesh& mesh, const std::vector<uint32_t>& of_faces) {
+  std::vector<Extent> extents(*std::max_element(of_faces.begin(), of_faces.end()) + 1);
+  for (size_t i = 0; i < of_faces.size(); i++) {
+    const Face& face = mesh.faces[i];
+    extents[of_faces[i]] += {mesh.positions[face[0]].cast<double>(), mesh.positions[face[1]].cast<double>(),
+                             mesh.positions[face[2]].cast<double>()};
+  }
+  for (const Extent& extent : extents) encloses_.push_back(encloses_volume(extent));
 }
 
 Solids::Hits& Solids::Hits::operator+=(const Hits& other) {
@@ -33,26 +77,26 @@ Solids::Hits Solids::no_hits() const {
   return {std::vector<uint64_t>(solid_.size()), std::vector<uint64_t>(solid_.size())};
 }
 
-int Solids::piece(const Hit& hit) const {
-  const int first = first_piece_[hit.instance];
-  if (first == none) return none;
-  const size_t primitive = static_cast<size_t>(scene_.scene().instances[hit.instance].primitive);
-  return first + static_cast<int>(pieces_of_faces_[primitive][hit.face]);
+std::optional<size_t> Solids::piece(const Hit& hit) const {
+  const auto primitive = static_cast<size_t>(scene_.scene().instances[hit.instance].primitive);
+  const std::vector<uint32_t>& of_faces = pieces_of_faces_[primitive];
+  if (of_faces.empty()) return {};
+  return first_piece_[primitive] + of_faces[hit.face];
 }
 
 void Solids::count(const Hit& hit, Hits& hits) const {
-  const int index = piece(hit);
-  if (index != none) (hit.front ? hits.front : hits.back)[static_cast<size_t>(index)]++;
+  if (const auto index = piece(hit)) (hit.front ? hits.front : hits.back)[*index]++;
 }
 
 void Solids::decide(const Hits& hits) {
-  for (size_t i = 0; i < solid_.size(); i++) solid_[i] = hits.back[i] * 1000 <= hits.front[i];
+  for (size_t i = 0; i < solid_.size(); i++)
+    solid_[i] = encloses_[i] && hits.front[i] >= least_hits && hits.back[i] * 1000 <= hits.front[i];
 }
 
 bool Solids::from_inside(const Hit& hit) const {
   if (hit.front) return false;
-  const int index = piece(hit);
-  return index == none || solid_[static_cast<size_t>(index)];
+  const auto index = piece(hit);
+  return !index || solid_[*index];
 }
 
 }  // namespace lightwell

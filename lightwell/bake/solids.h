@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lightwell/trace/trace_scene.h"
@@ -9,8 +10,9 @@
 namespace lightwell {
 
 /// Which surfaces bound the inside of a solid on their back. Those that are not double-sided all do. Many files declare
-/// solids double-sided, so of the connected pieces of double-sided surface those count too whose back photons
-/// practically never reach: of the photons that meet the piece less than one in a thousand comes from behind.
+/// solids double-sided, so of the connected pieces of double-sided surface those count too that enclose some volume and
+/// whose back photons practically never reach: of the photons that meet the piece, in all its instances, less than one
+/// in a thousand comes from behind.
 class Solids {
  public:
   explicit Solids(const TraceScene& scene);
@@ -30,12 +32,13 @@ class Solids {
   bool from_inside(const Hit& hit) const;
 
  private:
-  static constexpr int none = -1;
-  int piece(const Hit& hit) const;
+  void add_pieces(const Mesh& mesh, const std::vector<uint32_t>& of_faces);
+  std::optional<size_t> piece(const Hit& hit) const;
 
   const TraceScene& scene_;
-  std::vector<std::vector<uint32_t>> pieces_of_faces_;  // of each primitive that is double-sided
-  std::vector<int> first_piece_;                        // of each instance; none: not double-sided
+  std::vector<std::vector<uint32_t>> pieces_of_faces_;  // of each primitive that is double-sided; else empty
+  std::vector<size_t> first_piece_;                     // of each primitive
+  std::vector<uint8_t> encloses_;                       // of each piece: it has an inside
   std::vector<uint8_t> solid_;                          // of each piece
 };
 

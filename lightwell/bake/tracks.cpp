@@ -6,10 +6,13 @@
 namespace lightwell {
 namespace {
 
-/// A deposit is counted in this share of weight * length / unit: 4e-7 of a flight through a whole box is lost, and no
-/// deposit of a weight up to max_weight overflows 32 bits.
+/// A deposit is counted in this share of weight * length / unit: a flight through a whole box is right to 1.2e-7, and
+/// no deposit of a weight up to max_weight overflows 32 bits.
 constexpr float resolution = 0x1p22f;
 constexpr float max_weight = 256;
+
+/// To the nearest integer, halves away from 0; the compiler turns it into vector instructions, unlike lrint.
+int32_t rounded(float x) { return static_cast<int32_t>(x + std::copysign(0.5f, x)); }
 
 /// 0 for a direction in the plane between two half-spaces: light that lies in it exactly (a sun's) is of neither.
 float sign(float x) { return static_cast<float>((x > 0) - (x < 0)); }
@@ -108,7 +111,7 @@ void TrackSums::deposit(const Vec3f& origin, const Vec3f& direction, float lengt
     const float length_in_box = walk.advance();
     __builtin_prefetch(&sums_[walk.node() * lanes], 1);
     __builtin_prefetch(&sums_[walk.node() * lanes + lanes / 2], 1);
-    for (size_t i = 0; i < lanes; i++) sums[i] += static_cast<int32_t>(per_length[i] * length_in_box);
+    for (size_t i = 0; i < lanes; i++) sums[i] += rounded(per_length[i] * length_in_box);
   }
 }
 

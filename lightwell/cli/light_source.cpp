@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/cli/light_source.h"
 
-#include "lightwell/bake/lamps.h"
+#include "lightwell/bake/contained.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/open_scene.h"
 
@@ -31,12 +31,24 @@ void add_grid_options(CLI::App& command, LightBakeOptions& options) {
   add_count(command, "--photons", options.photons, "Photons to trace into the grid")->default_str("8M");
 }
 
-std::vector<uint8_t> contained_in_grid(const std::string& path, const TraceScene& scene, bool environment) {
-  if (is_pack(path)) return plan_lamps(scene).contained;
+Result<std::vector<uint8_t>> contained_in_grid(const std::string& path, const TraceScene& scene, bool environment) {
+  if (is_pack(path)) {
+    LW_TRY(pack, PackReader::open_file(path));
+    LW_TRY(json, pack_json(pack));
+    return contained_luminaires(json, scene);
+  }
   std::vector<uint8_t> contained;
   for (const Luminaire& luminaire : scene.lights().luminaires())
     contained.push_back(luminaire.kind == Luminaire::Kind::environment && environment);
   return contained;
+}
+
+Result<void> check_environment(const std::string& path, const Scene& scene) {
+  if (!is_pack(path) || EnvironmentLight(scene.environment).black()) return {};
+  LW_TRY(pack, PackReader::open_file(path));
+  LW_TRY(json, pack_json(pack));
+  if (contains_environment(json)) return {};
+  return fail(path, "its light was baked without an environment: bake the scene with one, or leave --environment out");
 }
 
 Result<LightGrid> light_of(const std::string& path, const TraceScene& scene, const LightBakeOptions& options,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "lightwell/bake/contained.h"
 #include "lightwell/bake/unpack.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/render/camera.h"
@@ -11,10 +12,14 @@
 namespace lightwell {
 namespace {
 
-Result<Scene> scene_of_pack(const std::string& path, const MeshLevel& level, Report& report) {
+Result<Scene> scene_of_pack(const std::string& path, bool has_environment, const MeshLevel& level, Report& report) {
   LW_TRY(pack, PackReader::open_file(path));
+  LW_TRY(json, pack_json(pack));
   LW_TRY(document, unpack_document(pack, level, report));
-  return scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report);
+  LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report));
+  if (contains_environment(json) && !has_environment && EnvironmentLight(scene.environment).black())
+    report.warn("environment: the pack has its light but not its picture: give it with --environment");
+  return scene;
 }
 
 // Lets a constant sky survive in a pack.
@@ -30,7 +35,8 @@ bool is_pack(const std::string& path) { return PackReader::open_file(path).has_v
 
 Result<Scene> open_scene(const std::string& path, const ImportOptions& options, const std::string& environment,
                          Report& report, const MeshLevel& level) {
-  auto scene = is_pack(path) ? scene_of_pack(path, level, report) : load_scene(path, options, report);
+  auto scene =
+      is_pack(path) ? scene_of_pack(path, !environment.empty(), level, report) : load_scene(path, options, report);
   if (!scene) return fail(in_file(scene.error(), path));
   if (!environment.empty()) {
     LW_TRY(surroundings, read_environment(environment));

@@ -27,7 +27,9 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Pr
   LightGrid grid;
   std::vector<uint8_t> contained;
   if (probe_options.integrator == Integrator::ivg) {
-    contained = contained_in_grid(options.scene, *traced, !options.without_environment);
+    LW_CHECK(check_environment(options.scene, scene));
+    LW_TRY(held, contained_in_grid(options.scene, *traced, !options.without_environment));
+    contained = std::move(held);
     LightBakeOptions light = options.light;
     light.seed = options.import.seed;
     light.contained = contained;

@@ -49,7 +49,8 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);
-  const std::vector<uint8_t> contained = contained_in_grid(options.scene, *traced);
+  if (render_options.integrator == Integrator::ivg) LW_CHECK(check_environment(options.scene, scene));
+  LW_TRY(contained, contained_in_grid(options.scene, *traced));
   LightGrid grid;
   Display display = options.display;
   const bool chosen_exposure = !options.exposure && options.output.ends_with(".png");

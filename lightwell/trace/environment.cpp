@@ -44,8 +44,10 @@ Vec3f EnvironmentLight::radiance(const Vec3f& direction) const {
   return map_ ? scale_ * pixel_radiance(*map_, pixel(direction)) : scale_;
 }
 
-Vec3f EnvironmentLight::sample(Random& random) const {
-  if (!map_) return sample_sphere(random);
+// Radiance and density are those of the chosen pixel: found again from the direction, rounding could give a black
+// neighbour's.
+EnvironmentLight::Sample EnvironmentLight::sample(Random& random) const {
+  if (!map_) return {.direction = sample_sphere(random), .radiance = scale_, .density = 1 / whole_sphere};
   const size_t chosen = pixels_.sample(random);
   const size_t width = static_cast<size_t>(map_->width);
   const int row = static_cast<int>(chosen / width);
@@ -54,7 +56,9 @@ Vec3f EnvironmentLight::sample(Random& random) const {
   const float u = (static_cast<float>(chosen % width) + random.uniform()) / static_cast<float>(width);
   const float angle = 2 * pi * (u - 0.5f);
   const float radius = std::sqrt(std::max(0.0f, 1 - y * y));
-  return {{radius * std::sin(angle), y, -radius * std::cos(angle)}};
+  return {.direction = {{radius * std::sin(angle), y, -radius * std::cos(angle)}},
+          .radiance = scale_ * pixel_radiance(*map_, chosen),
+          .density = pixels_.probability(chosen) / solid_angle(row, *map_)};
 }
 
 float EnvironmentLight::density(const Vec3f& direction) const {

@@ -18,9 +18,14 @@ class EnvironmentLight {
   const Vec3f& mean() const { return mean_; }
   /// Radiance that arrives from a unit direction (pointing towards the environment).
   Vec3f radiance(const Vec3f& direction) const;
+  struct Sample {
+    Vec3f direction{};  ///< unit, towards the environment
+    Vec3f radiance{};   ///< W/m2/sr, never black
+    float density = 0;  ///< 1/sr
+  };
   /// A direction by radiance; not when black.
-  Vec3f sample(Random& random) const;
-  /// The density of sample(), 1/sr.
+  Sample sample(Random& random) const;
+  /// The density with which sample() chooses a direction, 1/sr.
   float density(const Vec3f& direction) const;
 
  private:

@@ -56,6 +56,7 @@ Lights::Lights(const TraceScene& scene)
   if (!environment_.black()) add_environment();
   choice_ = Distribution(weights_);
   weights_ = {};
+  lit_texels_ = {};
 }
 
 void Lights::add(Element element, const Vec3f& power) {
@@ -112,6 +113,8 @@ void Lights::add_environment() {
   add({.luminaire = static_cast<int>(luminaires_.size()) - 1}, environment_.mean() * (pi * sphere_area));
 }
 
+bool Lights::finite() const { return std::isfinite(choice_.total()) && is_finite(power()); }
+
 Vec3f Lights::power() const {
   Vec3f sum{};
   for (const Luminaire& luminaire : luminaires_) sum += luminaire.power;
@@ -131,14 +134,31 @@ Vec3f Lights::emission(const Element& element, Vec2f uv) const {
   return surface.emission * surface.coverage;
 }
 
-/// Over the face's area, by samples where there is a texture: good enough to choose by.
-Vec3f Lights::mean_emission(const Element& element) const {
-  if (scene_.material(element.instance).emission_texture.image < 0) return emission(element, {{1.0f / 3, 1.0f / 3}});
+/// Whether a face's emission texture is anything but black on it.
+bool Lights::may_shine(const Element& element) {
+  const TextureLookup& texture = scene_.material(element.instance).emission_texture;
+  if (texture.image < 0) return true;
+  const Mesh& mesh =
+      scene_.scene().primitives[static_cast<size_t>(scene_.scene().instances[element.instance].primitive)].mesh;
+  const std::vector<Vec2f>& texcoords = mesh.texcoords[texture.texcoord == 1 ? 1 : 0];
+  std::array<Vec2f, 3> of_corners{};
+  for (size_t i = 0; i < 3 && !texcoords.empty(); i++) of_corners[i] = texcoords[mesh.faces[element.face][i]];
+  const auto image = static_cast<size_t>(texture.image);
+  return lit_texels_.try_emplace(texture.image, scene_.scene().images[image]).first->second.any(texture, of_corners);
+}
+
+/// Over the face's area, by samples where a texture or alpha changes it: good enough to choose by. A face that may
+/// shine is never given up because all samples missed where it does.
+Vec3f Lights::mean_emission(const Element& element) {
+  const Material& material = scene_.material(element.instance);
+  if (material.emission_texture.image < 0 && material.alpha == Material::Alpha::opaque)
+    return emission(element, {{1.0f / 3, 1.0f / 3}});
+  if (!may_shine(element)) return {};
   constexpr int samples = 64;
   Random random(element.instance, element.face);
   Vec3f sum{};
   for (int i = 0; i < samples; i++) sum += emission(element, sample_triangle(random));
-  return sum / samples;
+  return max(sum / samples, material.emission / (4 * samples));
 }
 
 Lights::Emission Lights::emit(Random& random) const {
@@ -199,10 +219,10 @@ Lights::Emission Lights::emit_from_surface(const Element& element, Random& rando
 }
 
 Lights::Emission Lights::emit_from_environment(Random& random) const {
-  const Vec3f towards = environment_.sample(random);
+  const EnvironmentLight::Sample sample = environment_.sample(random);
   Emission emission;
-  emission.ray = ray_from_afar(-towards, random);
-  emission.flux = environment_.radiance(towards) * (pi * radius_ * radius_ / environment_.density(towards));
+  emission.ray = ray_from_afar(-sample.direction, random);
+  emission.flux = sample.radiance * (pi * radius_ * radius_ / sample.density);
   return emission;
 }
 
@@ -260,10 +280,11 @@ Lights::Arrival Lights::sample_surface(const Element& element, const Vec3f& poin
 
 Lights::Arrival Lights::sample_environment(Random& random) const {
   Arrival arrival;
-  arrival.direction = environment_.sample(random);
+  const EnvironmentLight::Sample sample = environment_.sample(random);
+  arrival.direction = sample.direction;
   arrival.distance = std::numeric_limits<float>::infinity();
-  arrival.density = environment_.density(arrival.direction);
-  arrival.radiance = environment_.radiance(arrival.direction) / arrival.density;
+  arrival.density = sample.density;
+  arrival.radiance = sample.radiance / sample.density;
   return arrival;
 }
 

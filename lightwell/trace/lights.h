@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 
 #include "lightwell/trace/environment.h"
+#include "lightwell/trace/lit_texels.h"
 #include "lightwell/trace/sampling.h"
 #include "lightwell/trace/trace_scene.h"
 
@@ -35,6 +37,8 @@ class Lights {
   const std::vector<Luminaire>& luminaires() const { return luminaires_; }
   /// True when there is no light at all.
   bool dark() const { return choice_.total() <= 0; }
+  /// False when the sum of all light is beyond a float.
+  bool finite() const;
   /// Sum over all luminaires, W.
   Vec3f power() const;
 
@@ -95,7 +99,8 @@ class Lights {
   void add(Element element, const Vec3f& power);
   Triangle triangle(uint32_t instance, uint32_t face) const;
   Vec3f emission(const Element& element, Vec2f uv) const;
-  Vec3f mean_emission(const Element& element) const;
+  Vec3f mean_emission(const Element& element);
+  bool may_shine(const Element& element);
   Emission emit_from_lamp(const Lamp& lamp, Random& random) const;
   Emission emit_from_surface(const Element& element, Random& random) const;
   Emission emit_from_environment(Random& random) const;
@@ -111,6 +116,7 @@ class Lights {
   std::vector<Luminaire> luminaires_;
   std::vector<Element> elements_;
   std::vector<float> weights_;
+  std::map<int, LitTexels> lit_texels_;  // of emission textures, while lights are added
   Distribution choice_;
   std::vector<int> first_element_;  // of each instance, its faces follow one another; -1: does not shine
   EnvironmentLight environment_;

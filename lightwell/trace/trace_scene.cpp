@@ -4,6 +4,7 @@
 #include <embree3/rtcore.h>
 
 #include "lightwell/base/assert.h"
+#include "lightwell/scene/finish_mesh.h"
 #include "lightwell/trace/lights.h"
 
 namespace lightwell {
@@ -45,6 +46,7 @@ Result<std::unique_ptr<const TraceScene>> TraceScene::build(const Scene& scene) 
   std::unique_ptr<TraceScene> traced(new TraceScene(scene));
   LW_CHECK(traced->commit());
   traced->lights_ = std::make_unique<const Lights>(*traced);
+  if (!traced->lights_->finite()) return fail("lights", "they are too bright: their power is beyond a float");
   return traced;
 }
 
@@ -68,6 +70,7 @@ Result<void> TraceScene::commit() {
   embree_ = rtcNewScene(device_);
   rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
   for (const Instance& instance : scene_.instances) uses_[static_cast<size_t>(instance.primitive)]++;
+  LW_CHECK(check_extent());
   for (uint32_t i = 0; i < placed_.size(); i++) place(i);
   rtcCommitScene(embree_);
   if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
@@ -80,6 +83,25 @@ Result<void> TraceScene::commit() {
   const float extent = max_component(bounds_.size());
   const float farthest = max_component(max(-bounds_.lo, bounds_.hi));
   offset_ = std::max(1e-5f * extent, 0x1p-21f * farthest);
+  return {};
+}
+
+/// Beyond the limit areas and powers would leave a float's range, and farther out Embree drops triangles without a
+/// word.
+Result<void> TraceScene::check_extent() const {
+  std::vector<Box3f> boxes;
+  for (const Primitive& primitive : scene_.primitives) boxes.push_back(primitive.mesh.bounds());
+  for (const Instance& instance : scene_.instances) {
+    const Box3f& box = boxes[static_cast<size_t>(instance.primitive)];
+    for (int corner = 0; corner < 8 && !box.empty(); corner++) {
+      Vec3f p = box.lo;
+      for (int axis = 0; axis < 3; axis++)
+        if (corner >> axis & 1) p[axis] = box.hi[axis];
+      const Vec3f placed = instance.to_scene.point(p);
+      if (!(max_component(max(placed, -placed)) <= farthest_position))
+        return fail("node " + std::to_string(instance.node), "its mesh reaches farther than 1e9 m from the origin");
+    }
+  }
   return {};
 }
 

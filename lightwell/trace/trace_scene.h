@@ -41,7 +41,8 @@ struct Hit {
 /// A scene made ready for tracing rays with Embree: everything but deforming primitives. Threads may share it.
 class TraceScene {
  public:
-  /// The scene must outlive the result and stay as it is. Fails when it has no triangle, or when memory runs out.
+  /// The scene must outlive the result and stay as it is. Fails when it has no triangle, when
+  /// positions or light leave the range of numbers that can be calculated with, or when memory runs out.
   static Result<std::unique_ptr<const TraceScene>> build(const Scene& scene);
   ~TraceScene();
   TraceScene(const TraceScene&) = delete;
@@ -99,6 +100,7 @@ class TraceScene {
 
   explicit TraceScene(const Scene& scene);
   Result<void> commit();
+  Result<void> check_extent() const;
   void place(uint32_t instance);
   RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene);
   RTCSceneTy* shared_scene(int primitive, Placed& placed);

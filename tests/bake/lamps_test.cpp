@@ -91,6 +91,40 @@ TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
   }
 }
 
+// A node that mirrors turns the winding of its faces, not the side that shines.
+TEST(PlanLamps, AMirroredLampShinesToTheSameSide) {
+  Scene scene;
+  add(scene, rectangle(1, 1), emitter({{1, 1, 1}}), Transform::scaling({{-1, 1, 1}}));
+  add(scene, sphere(0.5f, false), emitter({{1, 1, 1}}), Transform::scaling({{1, -1, 1}}));
+  const LampPlan lamps = plan(scene);
+  ASSERT_EQ(lamps.client.size(), 2u);
+  EXPECT_EQ(lamps.client[0].kind, ClientLamp::Kind::rectangle);
+  EXPECT_LT(length(lamps.client[0].normal - Vec3f{{0, 0, 1}}), 1e-5f);
+  EXPECT_EQ(lamps.client[1].kind, ClientLamp::Kind::sphere);
+}
+
+// Of what it sends out a double-sided sphere keeps half inside; its radiance is the material's.
+TEST(PlanLamps, ADoubleSidedSphereHasItsMaterialsRadiance) {
+  Scene scene;
+  add(scene, sphere(0.5f, false), emitter({{5, 5, 5}}));
+  scene.materials.back().double_sided = true;
+  const LampPlan lamps = plan(scene);
+  ASSERT_EQ(lamps.client.size(), 1u);
+  EXPECT_NEAR(lamps.client[0].radiance[0], 5, 1e-3f);
+}
+
+// A fluorescent tube and a dome are no spheres, though all of them looks away from their middle: the grid takes them.
+TEST(PlanLamps, LeavesTubesAndDomesToTheGrid) {
+  Scene scene;
+  add(scene, sphere(0.5f, false), emitter({{1, 1, 1}}), Transform::scaling({{0.05, 2, 0.05}}));
+  Mesh dome = sphere(0.5f, false);
+  dome.faces.resize(dome.faces.size() / 2);
+  add(scene, dome, emitter({{1, 1, 1}}));
+  const LampPlan lamps = plan(scene);
+  EXPECT_TRUE(lamps.client.empty());
+  EXPECT_EQ(lamps.contained, (std::vector<uint8_t>{1, 1}));
+}
+
 TEST(PlanLamps, TakesASphereAndLeavesAnInwardOneToTheGrid) {
   Scene scene;
   add(scene, sphere(0.5f, false), emitter({{1, 1, 1}}));

@@ -134,6 +134,27 @@ TEST(BakeLight, KnowsTheNodesInsideASolid) {
   }
 }
 
+// A double-sided partition has no inside, however dark it is behind: that side keeps its nodes and stays dark, and so
+// does a piece that no photon meets.
+TEST(BakeLight, APartitionIsNoSolid) {
+  Scene scene = scene_of(room({{0, 0, 0}}, {{4, 4, 4}}), lambertian(0.0f));
+  add(scene, quad({{2, 0, 0}}, {{0, 0, 4}}, {{0, 4, 0}}), lambertian(0.5f));  // its back to the dark side
+  scene.materials.back().double_sided = true;
+  add(scene, quad({{3, 1, 1}}, {{0, 0, 1}}, {{0, 1, 0}}), lambertian(0.5f));
+  scene.materials.back().double_sided = true;
+  scene.lamps = {point_lamp({{1, 2, 2}}, Vec3f::filled(1))};
+  for (const uint8_t valid : bake(*traced(scene), options(9, 50000)).grid.valid) EXPECT_TRUE(valid);
+}
+
+TEST(BakeLight, RefusesAGridThatNoPackHolds) {
+  const Scene scene = scene_of(room({{0, 0, 0}}, {{1, 1, 1}}), lambertian(0.5f, 1));
+  Progress silent;
+  LightBakeStatistics statistics;
+  const auto grid = bake_light(*traced(scene), options(164, 1000), silent, statistics);
+  ASSERT_FALSE(grid);
+  EXPECT_EQ(grid.error().message(), "grid: 164 nodes on the longest axis are 4410944 in all, a pack holds 4194304");
+}
+
 // A thin wall that shows its back to one side: there is the inside of a solid, where what the wall reflects is not
 // counted. Nothing else reflects here.
 TEST(BakeLight, IgnoresTheLightOfBacks) {

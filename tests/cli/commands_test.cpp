@@ -193,6 +193,27 @@ TEST_F(Commands, RenderProbeAndDiffAgree) {
 }
 
 // In a furnace of albedo rho and emission Le every point receives pi Le rho / (1 - rho) of bounced light: pi here.
+// A pack says what its grid holds. A sky that it lacks would give no bounced light, so the grid cannot answer for it;
+// one that it holds as a map is not in the pack, and whoever follows paths must give it.
+TEST_F(Commands, AGridAnswersForTheSkyItWasBakedUnderOnly) {
+  write("points.csv", "x,y,z,nx,ny,nz\n0.3,0.3,0.3,0,1,0\n");
+  const std::string points = " --points " + path("points.csv") + " --quiet ";
+  const std::string dark = small_pack();
+  const Outcome refused = run("probe " + dark + points + "--integrator ivg --environment 1,1,1");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("was baked without an environment"), std::string::npos) << refused.err;
+  EXPECT_EQ(run("probe " + dark + points + "--integrator path --spp 1 --environment 1,1,1").status, 0);
+
+  // A map of one row of four pixels of radiance 1 (mantissa 128, exponent 129).
+  write("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 4\n" +
+                       std::string("\x80\x80\x80\x81\x80\x80\x80\x81\x80\x80\x80\x81\x80\x80\x80\x81", 16));
+  const std::string lit = small_pack("--environment " + path("sky.hdr"));
+  const Outcome warned = run("probe " + lit + " --points " + path("points.csv") + " --integrator path --spp 1");
+  EXPECT_EQ(warned.status, 0);
+  EXPECT_NE(warned.err.find("give it with --environment"), std::string::npos) << warned.err;
+  EXPECT_EQ(run("probe " + lit + points + "--integrator ivg --environment " + path("sky.hdr")).status, 0);
+}
+
 TEST_F(Commands, ProbeMeasuresTheFurnace) {
   write("points.csv", "x,y,z,nx,ny,nz\n1,1,1,0,1,0\n0.7,0.6,1.3,1,0,0\n1.2,1.1,0.4,0.6,0,-0.8\n");
   for (const std::string integrator : {"path --spp 400", "ivg --photons 2M --grid 8"}) {

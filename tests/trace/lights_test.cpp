@@ -82,7 +82,7 @@ TEST(Lights, AConstantEnvironmentGivesPiTimesItsRadiance) {
   EXPECT_NEAR(e[2] / e[0], 3, 1e-4f);
 }
 
-/// A dark map with one bright pixel row and column, and its exact irradiance on a plane that faces `normal`.
+/// A dark map with one bright pixel.
 RadianceImage bright_spot() {
   RadianceImage map{16, 8, std::vector<float>(16 * 8 * 3, 0.01f)};
   for (size_t c = 0; c < 3; c++) map.pixels[3 * (2 * 16 + 5) + c] = 100;
@@ -104,13 +104,65 @@ TEST(Lights, AnEnvironmentMapIsSampledByItsRadiance) {
   double integral = 0;
   for (uint64_t i = 0; i < 10000; i++) {
     Random random(2, i);
-    const Vec3f d = environment.sample(random);
-    bright += environment.radiance(d)[0] > 1;
-    integral += static_cast<double>(environment.radiance(d)[0] / environment.density(d)) / 10000;
+    const EnvironmentLight::Sample sample = environment.sample(random);
+    bright += sample.radiance[0] > 1;
+    integral += static_cast<double>(sample.radiance[0] / sample.density) / 10000;
   }
   EXPECT_GT(bright, 9800);  // 100 * 0.12 sr of 12.1 + 0.126
   // Density is proportional to radiance, so each sample is the integral: the mean over the sphere times 4 pi.
   EXPECT_NEAR(integral / static_cast<double>(4 * pi * environment.mean()[0]), 1, 1e-3);
+}
+
+// Single bright pixels on black: near a pixel's edge rounding may take a direction for its black neighbour's, whose
+// radiance over density is 0 / 0.
+TEST(Lights, AnEnvironmentOfBlackAndBrightPixelsIsFinite) {
+  Scene scene = floor_scene();
+  RadianceImage map{4096, 64, std::vector<float>(4096 * 64 * 3)};
+  for (size_t pixel = 0; pixel < 4096 * 64; pixel += 2)
+    for (size_t c = 0; c < 3; c++) map.pixels[3 * pixel + c] = 1;
+  scene.environment.map = std::make_shared<const RadianceImage>(std::move(map));
+  scene.environment.radiance = Vec3f::filled(1);
+  const auto trace = traced(scene);
+  for (uint64_t i = 0; i < 100000; i++) {
+    Random random(5, i);
+    const Lights::Arrival arrival = trace->lights().sample({}, random);
+    ASSERT_TRUE(is_finite(arrival.radiance)) << i;
+    ASSERT_GT(arrival.radiance[0], 0) << i;
+    ASSERT_TRUE(is_finite(trace->lights().emit(random).flux)) << i;
+  }
+}
+
+// A lamp is never lost because nobody looked where it shines: one bright texel of 64 x 64, and a mask whose holes lie
+// at the middle of both faces.
+TEST(Lights, FindsTheLitPartOfATexture) {
+  Scene scene = floor_scene();
+  Mesh screen = quad({{0, 3, 0}}, {{1, 0, 0}}, {{0, 0, 1}});
+  screen.texcoords[0] = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
+  add(scene, screen, lambertian(0, 1000));
+  Material& material = scene.materials.back();
+  material.emission_texture.image = 0;
+  material.emission_texture.wrap_u = material.emission_texture.wrap_v = TextureLookup::Wrap::clamp;
+  scene.images = {{64, 64, 1, std::vector<uint8_t>(64 * 64)}};
+  EXPECT_TRUE(traced(scene)->lights().dark());
+  scene.images[0].pixels[64 * 50 + 7] = 255;
+  const auto trace = traced(scene);
+  ASSERT_FALSE(trace->lights().dark());
+  double flux = 0;
+  const int count = 400000;
+  for (int i = 0; i < count; i++) {
+    Random random(6, static_cast<uint64_t>(i));
+    flux += static_cast<double>(trace->lights().emit(random).flux[0]) / count;
+  }
+  // pi * 1000 of one texel in 4096, which one photon in 2048 meets: 4 / sqrt(195) of it.
+  EXPECT_NEAR(flux / (static_cast<double>(pi) * 1000 / 4096), 1, 0.3);
+
+  material.emission_texture.image = -1;
+  material.alpha = Material::Alpha::mask;
+  material.base_color_texture.image = 0;
+  Image mask{3, 3, 2, std::vector<uint8_t>(18, 255)};
+  for (const size_t hole : {2u, 4u, 6u}) mask.pixels[2 * hole + 1] = 0;
+  scene.images = {mask};
+  EXPECT_FALSE(traced(scene)->lights().dark());
 }
 
 // Photons of all kinds of sources carry their power on average.

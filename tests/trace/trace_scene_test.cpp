@@ -48,13 +48,15 @@ TEST(TraceScene, IsWatertight) {
   }
 }
 
-// A mirroring or uneven transform must turn no front into a back; a primitive of many faces is placed by Embree, one of
-// few is copied, and both are hit at the same places.
+// A mirroring or uneven transform must turn no front into a back; a primitive of many faces is placed by Embree (8 *
+// 4^8 faces twice are more than a million with a third instance), one of few is copied, and both are hit at the same
+// places.
 TEST(TraceScene, PlacesInstances) {
   const Transform mirror = Transform::translation({{3, 0, 0}}) * Transform::scaling({{-1, 1, 0.5}});
   for (const int splits : {2, 8}) {
     Scene scene = scene_of(sphere(1, splits), lambertian(0.5f));
     scene.instances.push_back({0, mirror, -1});
+    scene.instances.push_back({0, Transform::translation({{0, 9, 0}}), -1});
     const auto trace = traced(scene);
     Random random(3, 0);
     Hit hit;
@@ -68,6 +70,21 @@ TEST(TraceScene, PlacesInstances) {
     EXPECT_EQ(hit.instance, 0u);
     EXPECT_NEAR(hit.distance, 1, 1e-5f);
   }
+}
+
+// Farther out areas would overflow.
+TEST(TraceScene, RefusesPositionsBeyondAFloatsRange) {
+  for (const float far : {1e10f, 1e19f, std::numeric_limits<float>::infinity()}) {
+    Scene scene = scene_of(quad({{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}), lambertian(0, 1));
+    scene.primitives[0].mesh.positions[2][1] = far;
+    const auto result = TraceScene::build(scene);
+    ASSERT_FALSE(result) << far;
+    EXPECT_EQ(result.error().message(), "node -1: its mesh reaches farther than 1e9 m from the origin");
+  }
+  Scene scene = scene_of(quad({{0, 0, 0}}, {{1e8f, 0, 0}}, {{0, 1e8f, 0}}), lambertian(0, 1e30f));
+  const auto result = TraceScene::build(scene);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message(), "lights: they are too bright: their power is beyond a float");
 }
 
 TEST(TraceScene, LeavesOutWhatDeformsAndRefusesWhatIsEmpty) {

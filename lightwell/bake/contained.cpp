@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/contained.h"
+
+#include <optional>
+
+namespace lightwell {
+namespace {
+
+/// What LIGHTWELL_lamps says of a lamp's place.
+struct Place {
+  Luminaire::Kind kind = Luminaire::Kind::lamp;
+  int node = -1;
+  Vec3f center{};
+};
+
+Place place_of(const Json& lamp) {
+  Place place;
+  const Json& kind = member(lamp, "kind");
+  if (kind == "rectangle" || kind == "sphere") place.kind = Luminaire::Kind::surface;
+  place.node = index_of(lamp, "node");
+  const Json& center = member(lamp, "center");
+  for (size_t axis = 0; axis < 3 && center.is_array() && axis < center.size(); axis++)
+    if (center[axis].is_number()) place.center.e[axis] = center[axis].get<float>();
+  return place;
+}
+
+Place place_of(const Luminaire& luminaire, const Scene& scene) {
+  const auto index = static_cast<size_t>(luminaire.index);
+  switch (luminaire.kind) {
+    case Luminaire::Kind::lamp: return {luminaire.kind, scene.lamps[index].node, scene.lamps[index].position};
+    case Luminaire::Kind::surface: return {luminaire.kind, scene.instances[index].node, luminaire.center};
+    case Luminaire::Kind::environment: break;
+  }
+  return {luminaire.kind};
+}
+
+}  // namespace
+
+bool contains_environment(const Json& pack) {
+  for (const Json& grid : member(extension(pack, "LIGHTWELL_light_grids"), "grids"))
+    for (const Json& what : member(grid, "contains"))
+      if (what == "environment") return true;
+  return false;
+}
+
+std::vector<uint8_t> contained_luminaires(const Json& pack, const TraceScene& scene) {
+  std::vector<Place> places;
+  std::vector<uint8_t> contained;
+  for (const Luminaire& luminaire : scene.lights().luminaires()) {
+    places.push_back(place_of(luminaire, scene.scene()));
+    contained.push_back(luminaire.kind != Luminaire::Kind::environment || contains_environment(pack));
+  }
+  for (const Json& lamp : member(extension(pack, "LIGHTWELL_lamps"), "lamps")) {
+    const Place place = place_of(lamp);
+    std::optional<size_t> nearest;
+    for (size_t i = 0; i < places.size(); i++) {
+      if (!contained[i] || places[i].kind != place.kind || places[i].node != place.node) continue;
+      const auto distance = [&](size_t j) { return length(places[j].center - place.center); };
+      if (!nearest || distance(i) < distance(*nearest)) nearest = i;
+    }
+    if (nearest) contained[*nearest] = 0;
+  }
+  return contained;
+}
+
+}  // namespace lightwell
