@@ -27,7 +27,8 @@ export class PackConnection {
   constructor(url: string, options: ConnectionOptions = {}) {
     const workerUrl = absolute(options.workerUrl ?? new URL('./worker.js', import.meta.url).href);
     const wasm = absolute(options.wasmUrl ?? new URL('./lightwell.wasm', import.meta.url).href);
-    const listen = (events: PackEvent[]) => events.forEach((event) => this.#deliver(event));
+    const tell = reporting((event) => this.onEvent(event));
+    const listen = (events: PackEvent[]) => events.forEach((event) => this.#closed || tell(event));
     this.#port = connectWorker(workerUrl, listen).catch(() => connectHere(workerUrl, listen));
     this.#port.catch((error: unknown) => listen([failure(`${workerUrl}: ${String(error)}`)]));
     this.#send({ type: 'open', url: absolute(url), wasm, strategy: options.strategy ?? 'interleave' });
@@ -60,19 +61,20 @@ export class PackConnection {
     this.#port.then((port) => port.close()).catch(() => {});
   }
 
-  /** A listener that throws loses its event, not the rest of what came with it. */
-  #deliver(event: PackEvent): void {
-    if (this.#closed) return;
-    try {
-      this.onEvent(event);
-    } catch (error) {
-      reportError(error);
-    }
-  }
-
   #send(command: Command): void {
     this.#port.then((port) => port.postMessage(command)).catch(() => {});
   }
+}
+
+/** A listener that loses an event at which it throws, but not the rest of what came with it. */
+export function reporting(listener: (event: PackEvent) => void): (event: PackEvent) => void {
+  return (event) => {
+    try {
+      listener(event);
+    } catch (error) {
+      reportError(error);
+    }
+  };
 }
 
 function failure(message: string): PackEvent {

@@ -2,6 +2,7 @@
 import type { Camera, Scene } from 'three';
 import type { ConnectionEvent, FailureEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
+import { messageOf, reasonOf } from '../three/pack_error.js';
 import type { LightwellScene } from '../three/scene.js';
 import { parseQuantity, parseTriple, parseWord } from './attributes.js';
 import { Orbit, type View } from './orbit.js';
@@ -22,8 +23,9 @@ const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 const STRATEGIES = ['interleave', 'geometry', 'light'] as const;
 const TONES = ['neutral', 'none'] as const;
 const DEFAULT_LABEL = '3D scene. Arrow keys turn it, shift and arrow keys move it, plus and minus zoom, Home returns.';
-/** Pause before a file that was replaced while it was read is read anew, in milliseconds. */
+/** Pause before a file that was replaced while it was read is read anew, in milliseconds; doubled each time, up to the second. */
 const REPLACED_PAUSE = 1000;
+const LONGEST_REPLACED_PAUSE = 60_000;
 /** The view is told to the stream when it has rested for so long, in milliseconds. */
 const VIEW_REST = 150;
 
@@ -67,7 +69,9 @@ export class LightwellView extends HTMLElement {
   #orbit: Orbit | null = null;
   #pack: LightwellScene | null = null;
   #poster: HTMLImageElement | null = null;
-  #attempt = 0;
+  /** Of the pack that is loading or shown; null when none is. */
+  #loader: LightwellLoader | null = null;
+  #replacedPause = REPLACED_PAUSE;
   #near = false;
   #paused = false;
   #complete = false;
@@ -164,8 +168,8 @@ export class LightwellView extends HTMLElement {
     root.append(stage.canvas);
     this.#resize.observe(this);
     this.#intersection.observe(this);
-    for (const name of LightwellView.observedAttributes) if (name !== 'src') this.#apply(name);
-    this.#load();
+    for (const name of LightwellView.observedAttributes) if (name !== 'src' && name !== 'loading') this.#apply(name);
+    this.#open();
   }
 
   /** Null where the browser cannot: said a turn later, so that the page can listen. */
@@ -190,7 +194,7 @@ export class LightwellView extends HTMLElement {
 
   attributeChangedCallback(name: string): void {
     if (this.#stage === null) return;
-    if (name === 'src') this.#load();
+    if (name === 'src') this.#open();
     else this.#apply(name);
   }
 
@@ -199,24 +203,31 @@ export class LightwellView extends HTMLElement {
     this.addEventListener(name, (event) => event instanceof CustomEvent && listener(event.detail as LightwellViewDetails[Name]));
   }
 
+  #open(): void {
+    this.#replacedPause = REPLACED_PAUSE;
+    this.#load();
+  }
+
   #load(): void {
     this.#unload();
     const src = this.getAttribute('src');
     const stage = this.#stage;
     if (src === null || stage === null || (this.getAttribute('loading') === 'lazy' && !this.#near)) return;
-    const attempt = ++this.#attempt;
     const strategy: Strategy = parseWord(this.getAttribute('strategy'), STRATEGIES);
-    const onConnection = (state: ConnectionEvent['state']) => attempt === this.#attempt && this.#emit('connection', { state });
-    new LightwellLoader().setRenderer(stage.renderer).setOptions({ strategy, onConnection }).load(
+    const loader = (this.#loader = new LightwellLoader());
+    const current = () => loader === this.#loader;
+    const onConnection = (state: ConnectionEvent['state']) => current() && this.#emit('connection', { state });
+    loader.setRenderer(stage.renderer).setOptions({ strategy, onConnection }).load(
       src,
-      (pack) => (attempt === this.#attempt ? this.#show(pack) : pack.dispose()),
+      (pack) => this.#show(pack),
       undefined,
-      (error) => attempt === this.#attempt && this.#emit('error', { reason: 'unreadable', message: messageOf(error) }),
+      (error) => current() && this.#onFailure(reasonOf(error), messageOf(error)),
     );
   }
 
   #unload(): void {
-    this.#attempt++;
+    this.#loader?.abort();
+    this.#loader = null;
     this.#pack?.removeFromParent();
     this.#pack?.dispose();
     this.#pack = this.#progress = null;
@@ -250,8 +261,10 @@ export class LightwellView extends HTMLElement {
   /** A file that was replaced is another pack: what has come of the old one is of no use. */
   #onFailure(reason: FailureEvent['reason'], message: string): void {
     this.#emit('error', { reason, message });
-    const attempt = this.#attempt;
-    if (reason === 'replaced') setTimeout(() => attempt === this.#attempt && this.#load(), REPLACED_PAUSE);
+    if (reason !== 'replaced') return;
+    const loader = this.#loader;
+    setTimeout(() => loader === this.#loader && this.#load(), this.#replacedPause);
+    this.#replacedPause = Math.min(2 * this.#replacedPause, LONGEST_REPLACED_PAUSE);
   }
 
   #frame(pack: LightwellScene): void {
@@ -271,7 +284,7 @@ export class LightwellView extends HTMLElement {
       case 'poster':
         return this.#setPoster(value);
       case 'loading':
-        return this.#pack === null && this.#attempt > 0 ? this.#load() : undefined;
+        return this.#loader === null ? this.#open() : undefined;
       case 'camera-controls':
         this.#orbit!.enabled = value !== null;
         return;
@@ -331,7 +344,7 @@ export class LightwellView extends HTMLElement {
   #onIntersection(near: boolean): void {
     this.#near = near;
     this.#stage?.setRunning(near);
-    if (near && this.#pack === null && this.getAttribute('loading') === 'lazy') this.#load();
+    if (near && this.#loader === null && this.getAttribute('loading') === 'lazy') this.#open();
     if (!near) this.#pack?.pause();
     else if (!this.#paused) this.#pack?.resume();
   }
@@ -356,8 +369,4 @@ export class LightwellView extends HTMLElement {
   #emit<Name extends keyof LightwellViewDetails>(name: Name, detail: LightwellViewDetails[Name]): void {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
-}
-
-function messageOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }

@@ -87,7 +87,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** While stopped no frame is drawn, whoever asks. */
+  /** While stopped no frame is drawn but by `draw` and `resize`; what was asked for meanwhile is drawn at the start. */
   setRunning(running: boolean): void {
     this.#running = running;
     if (running) return this.invalidate();

@@ -2,6 +2,7 @@
 //
 // Packs in three.js.
 export { LightwellLight } from './light.js';
+export { PackError } from './pack_error.js';
 export { LightwellLoader, type LoaderOptions } from './loader.js';
 export { LightwellScene, type LightwellSceneEventMap, type SceneOptions } from './scene.js';
 export { BYTES_PER_FRAME } from './upload_budget.js';

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
-import { type ConnectionOptions, PackConnection } from '../core/connection.js';
+import { type ConnectionOptions, PackConnection, reporting } from '../core/connection.js';
 import type { ConnectionEvent, LightEvent, MeshEvent, PackEvent } from '../core/protocol.js';
 import { readOpening } from './opening.js';
+import { messageOf, PackError, reasonOf } from './pack_error.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
 
 export interface LoaderOptions extends ConnectionOptions, SceneOptions {
@@ -21,6 +22,7 @@ export interface LoaderOptions extends ConnectionOptions, SceneOptions {
 export class LightwellLoader extends Loader<LightwellScene> {
   #renderer: WebGLRenderer | null = null;
   #options: LoaderOptions = {};
+  #abort = new AbortController();
 
   constructor(manager?: LoadingManager) {
     super(manager);
@@ -37,6 +39,14 @@ export class LightwellLoader extends Loader<LightwellScene> {
     return this;
   }
 
+  /** Ends the loads that are under way: they fail with an AbortError. */
+  override abort(): this {
+    this.#abort.abort();
+    this.#abort = new AbortController();
+    return this;
+  }
+
+  /** `onError` is given a PackError, which says the reason. */
   override load(
     url: string,
     onLoad: (scene: LightwellScene) => void,
@@ -45,7 +55,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
   ): void {
     const item = this.manager.resolveURL(this.path + url);
     this.manager.itemStart(item);
-    this.#load(item, onProgress)
+    this.#load(item, this.#abort.signal, onProgress)
       .then(onLoad)
       .catch((error: unknown) => {
         this.manager.itemError(item);
@@ -56,12 +66,17 @@ export class LightwellLoader extends Loader<LightwellScene> {
   }
 
   /** The scene's events begin after `onLoad`, so that nobody misses one. */
-  async #load(url: string, onProgress?: (event: globalThis.ProgressEvent) => void): Promise<LightwellScene> {
+  async #load(
+    url: string,
+    signal: AbortSignal,
+    onProgress?: (event: globalThis.ProgressEvent) => void,
+  ): Promise<LightwellScene> {
     const renderer = this.#renderer;
     if (renderer === null) throw new Error('LightwellLoader: call setRenderer before loading');
     const connection = new PackConnection(url, this.#options);
+    let scene: LightwellScene | null = null;
     try {
-      const inbox = new Inbox(connection, onProgress, this.#options.onConnection);
+      const inbox = new Inbox(connection, signal, onProgress, this.#options.onConnection);
       const { glb } = await inbox.take((event) => event.type === 'opening');
       const opening = await readOpening(glb, this.manager);
       // The first state of a light is made of the opening alone, so it is close behind. A picture without it would be black.
@@ -71,15 +86,17 @@ export class LightwellLoader extends Loader<LightwellScene> {
         connection.consumed(light.atlas.byteLength);
         lights.push(light);
       }
-      const scene = await LightwellScene.create(opening, lights, connection, renderer, this.#options);
+      const created = (scene = await LightwellScene.create(opening, lights, connection, renderer, this.#options));
       // So are the sizes of the meshes: all buffers are there with the first frame.
       for (const stream of opening.primitives.keys())
         scene.receive(await inbox.take((event): event is MeshEvent => event.type === 'mesh' && event.stream === stream));
-      setTimeout(() => inbox.forward((event) => scene.receive(event)));
+      signal.throwIfAborted();
+      setTimeout(() => inbox.forward((event) => created.receive(event)));
       return scene;
     } catch (error) {
       connection.close();
-      throw new Error(`${url}: ${messageOf(error)}`);
+      scene?.dispose();
+      throw signal.aborted ? signal.reason : new PackError(`${url}: ${messageOf(error)}`, reasonOf(error));
     }
   }
 }
@@ -87,15 +104,19 @@ export class LightwellLoader extends Loader<LightwellScene> {
 /** Keeps what a connection says until somebody wants it. */
 class Inbox {
   readonly #connection: PackConnection;
+  readonly #signal: AbortSignal;
   readonly #events: PackEvent[] = [];
   #look: () => void = () => {};
 
   constructor(
     connection: PackConnection,
+    signal: AbortSignal,
     onProgress?: (event: globalThis.ProgressEvent) => void,
     onConnection?: LoaderOptions['onConnection'],
   ) {
     this.#connection = connection;
+    this.#signal = signal;
+    signal.addEventListener('abort', () => this.#look());
     connection.onEvent = (event) => {
       if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
       if (event.type === 'connection') onConnection?.(event.state);
@@ -104,16 +125,17 @@ class Inbox {
     };
   }
 
-  /** Takes the first event that is `wanted` out, after waiting for it; rejects when the connection fails instead. */
+  /** Takes the first event that is `wanted` out, after waiting for it; rejects when the connection fails or the load is aborted instead. */
   take<Event extends PackEvent>(wanted: (event: PackEvent) => event is Event): Promise<Event> {
     return new Promise((resolve, reject) => {
       this.#look = () => {
         const event = this.#events.find(wanted);
         const failure = this.#events.find((other) => other.type === 'failure');
-        if (event !== undefined) {
+        if (this.#signal.aborted) reject(this.#signal.reason);
+        else if (event !== undefined) {
           this.#events.splice(this.#events.indexOf(event), 1);
           resolve(event);
-        } else if (failure !== undefined) reject(new Error(failure.message));
+        } else if (failure !== undefined) reject(new PackError(failure.message, failure.reason));
         else return;
         this.#look = () => {};
       };
@@ -123,13 +145,9 @@ class Inbox {
 
   /** Gives away what is left, and from now on everything as it comes. */
   forward(listener: (event: PackEvent) => void): void {
-    this.#events.splice(0).forEach(listener);
+    this.#events.splice(0).forEach(reporting(listener));
     this.#connection.onEvent = listener;
   }
-}
-
-function messageOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }
 
 function asProgressEvent({ done, total }: { done: number; total: number }): globalThis.ProgressEvent {

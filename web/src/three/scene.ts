@@ -29,6 +29,7 @@ import { LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp } from './lamps.js';
 import { MeshRefinement } from './mesh_refinement.js';
 import { mostMaps, type Opening } from './opening.js';
+import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
 import { TextureRefinement } from './texture_refinement.js';
 import { UploadBudget } from './upload_budget.js';
@@ -44,6 +45,7 @@ export interface LightwellSceneEventMap extends Object3DEventMap {
   connection: { state: ConnectionEvent['state'] };
   /** Everything has come and has reached the GPU. */
   complete: object;
+  /** No more will come, or an image could not be read. */
   failure: { reason: FailureEvent['reason']; message: string };
 }
 
@@ -163,6 +165,34 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** What the connection says; the loader passes it on. */
   receive(event: PackEvent): void {
     switch (event.type) {
+      case 'opening':
+        return;
+      case 'progress':
+        return void this.dispatchEvent({ type: 'progress', progress: event.progress });
+      case 'connection':
+        this.#received = event.state === 'complete';
+        this.dispatchEvent({ type: 'connection', state: event.state });
+        return this.#changed();
+      case 'failure':
+        return void this.dispatchEvent({ type: 'failure', reason: event.reason, message: event.message });
+      default:
+        this.#update(event);
+        return this.#changed();
+    }
+  }
+
+  /** An update that does not fit the opening ends the streaming. */
+  #update(event: UpdateEvent): void {
+    try {
+      this.#apply(event);
+    } catch (error) {
+      this.#connection.close();
+      this.#fail(error);
+    }
+  }
+
+  #apply(event: UpdateEvent): void {
+    switch (event.type) {
       case 'mesh':
         return this.#startMesh(event);
       case 'range':
@@ -172,17 +202,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
         return this.#refineBy(event, this.#lights.get(event.stream));
       case 'texture':
         return this.#refineBy(event, this.#images.get(event.stream));
-      case 'progress':
-        return void this.dispatchEvent({ type: 'progress', progress: event.progress });
-      case 'connection':
-        this.#received = event.state === 'complete';
-        this.dispatchEvent({ type: 'connection', state: event.state });
-        return this.#changed();
-      case 'failure':
-        return void this.dispatchEvent({ type: 'failure', reason: event.reason, message: event.message });
-      case 'opening':
-        return;
     }
+  }
+
+  #fail(error: unknown): void {
+    this.dispatchEvent({ type: 'failure', reason: 'unreadable', message: messageOf(error) });
   }
 
   /** Right before a frame, when three.js brings the scene's matrices up to date, comes what streams in. */
@@ -227,10 +251,12 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   }
 
   /** Bytes that nothing in the scene shows are done with: the sender would wait for them. */
-  #refineBy<Event extends UpdateEvent>(event: Event, refinement: { receive(event: Event): void } | undefined): void {
-    if (refinement !== undefined) refinement.receive(event);
-    else this.#connection.consumed(payload(event)?.byteLength ?? 0);
-    this.#changed();
+  #refineBy<Event extends UpdateEvent>(
+    event: Event,
+    refinement: { receive(event: Event): void | Promise<void> } | undefined,
+  ): void {
+    if (refinement === undefined) this.#connection.consumed(payload(event)?.byteLength ?? 0);
+    else refinement.receive(event)?.catch((error: unknown) => this.#fail(error));
   }
 
   #startMesh(layout: MeshEvent): void {
@@ -246,7 +272,6 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     }
     primitive.base.dispose();
     this.#meshes.set(layout.stream, refinement);
-    this.#changed();
   }
 
   #createLamps(): Lamp[] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box2, Texture, Vector2, type WebGLRenderer } from 'three';
 import type { TextureEvent } from '../core/protocol.js';
+import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
 import { RowSweep } from './row_sweep.js';
 import type { UploadBudget } from './upload_budget.js';
@@ -49,15 +50,20 @@ export class TextureRefinement implements Refinement {
     return this.#decoding || (this.#image !== null && !this.#sweep.done);
   }
 
-  /** Decodes the image. The preview stays when the browser cannot read it. */
+  /** Decodes the image. When the browser cannot read it, the preview stays and the promise is rejected. */
   async receive(event: TextureEvent): Promise<void> {
     this.#decoding = true;
-    const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType })).catch(() => null);
-    this.#decoding = false;
-    if (this.#disposed) return image?.close();
-    if (image === null) this.#consumed += event.file.byteLength;
-    this.#image = image;
-    this.#bytes = event.file.byteLength;
+    try {
+      const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType }));
+      if (this.#disposed) return image.close();
+      this.#image = image;
+      this.#bytes = event.file.byteLength;
+    } catch (error) {
+      this.#consumed += event.file.byteLength;
+      throw new Error(`the image of stream ${event.stream} (${event.mimeType}) cannot be read: ${messageOf(error)}`);
+    } finally {
+      this.#decoding = false;
+    }
   }
 
   advance(budget: UploadBudget): boolean {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How a load begins and ends: what is given up, what is said when it fails, and when it is tried anew.
+import assert from 'node:assert/strict';
+import { createServer } from 'node:http';
+import { after, before, test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { WEB } from './dependencies.mjs';
+import { temporaryFolder, writeSamplePack } from './packs.mjs';
+import { startStaticServer } from './static_server.mjs';
+import { complete, notice } from './view.mjs';
+
+const folder = temporaryFolder();
+const SMALL = writeSamplePack(`${folder}/small.lw.glb`, 5_000);
+/** Its opening does not fit into the first request. */
+const LARGE = writeSamplePack(`${folder}/large.lw.glb`, 200_000);
+
+/** Runs in the page before its scripts: `workers` counts those that were started and those that live. */
+const COUNT_WORKERS = `globalThis.workers = { started: 0, alive: 0 };
+globalThis.Worker = class extends Worker {
+  constructor(...values) { super(...values); workers.started++; workers.alive++; }
+  terminate() { workers.alive--; super.terminate(); }
+};`;
+
+/** Runs in the page before its scripts: `failures` collects the element's errors, with the time. */
+const NOTE_FAILURES = `globalThis.failures = [];
+addEventListener('DOMContentLoaded', () =>
+  document.querySelector('lightwell-view').addEventListener('error', ({ detail }) =>
+    failures.push({ ...detail, time: performance.now() })));`;
+
+let browser;
+before(async () => (browser = await launch()));
+after(() => browser.close());
+
+/** The page with the pack that `packFile` names for each request of /pack.lw.glb; small.lw.glb lies beside it. */
+async function openPack(t, packFile, init = '') {
+  const server = await startStaticServer({
+    '/': `${WEB}dist`,
+    '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
+    '/small.lw.glb': SMALL,
+    get '/pack.lw.glb'() {
+      return packFile();
+    },
+  });
+  t.after(server.stop);
+  const opened = await openPage(browser, { init: NOTE_FAILURES + init });
+  t.after(opened.close);
+  await opened.page.goto(server.url);
+  return opened;
+}
+
+const setSource = (page, url) => page.evaluate((src) => document.querySelector('lightwell-view').setAttribute('src', src), url);
+const failures = (page, count) =>
+  page.waitForFunction((least) => globalThis.failures.length >= least && globalThis.failures, count).then((handle) => handle.jsonValue());
+
+test('a load that another one follows is given up, though its server never answers', async (t) => {
+  const silent = createServer(() => {});
+  await new Promise((resolve) => silent.listen(0, '127.0.0.1', resolve));
+  t.after(() => (silent.closeAllConnections(), silent.close()));
+  const asked = new Promise((resolve) => silent.once('request', (request) => resolve(request)));
+  const { page, errors } = await openPack(t, () => SMALL, COUNT_WORKERS);
+  await complete(page);
+  await setSource(page, `http://127.0.0.1:${silent.address().port}/pack.lw.glb`);
+  const request = await asked;
+  const ended = new Promise((resolve) => request.once('close', resolve));
+  await setSource(page, '/small.lw.glb');
+  await ended;
+  await complete(page);
+  assert.equal(await page.evaluate(() => globalThis.workers.alive), 1);
+  assert.deepEqual(await page.evaluate(() => globalThis.failures), []);
+  assert.deepEqual(errors, []);
+});
+
+test('an element that comes back to the page loads once', async (t) => {
+  const { page, errors } = await openPack(t, () => SMALL, COUNT_WORKERS);
+  await complete(page);
+  await page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    const { parentNode, nextSibling } = view;
+    view.remove();
+    parentNode.insertBefore(view, nextSibling);
+  });
+  await complete(page);
+  assert.deepEqual(await page.evaluate(() => globalThis.workers), { started: 2, alive: 1 });
+  assert.deepEqual(errors, []);
+});
+
+test('a pack that is not there is refused in words', async (t) => {
+  const { page } = await openPack(t, () => `${folder}/missing.lw.glb`);
+  const [{ reason, message }] = await failures(page, 1);
+  assert.equal(reason, 'refused');
+  assert.match(message, /pack\.lw\.glb.*404/);
+  await notice(page, '404');
+});
+
+test('a file that is replaced while its opening comes is loaded anew', async (t) => {
+  let answers = 0;
+  const { page, errors } = await openPack(t, () => (answers++ === 0 ? LARGE : SMALL));
+  await complete(page);
+  const reasons = (await failures(page, 1)).map(({ reason }) => reason);
+  assert.deepEqual(reasons, ['replaced']);
+  assert.deepEqual(errors, []);
+});
+
+test('a file that differs each time is tried ever more rarely', async (t) => {
+  let answers = 0;
+  const { page } = await openPack(t, () => (answers++ % 2 === 0 ? LARGE : SMALL));
+  const times = (await failures(page, 3)).map(({ time }) => time);
+  // The pauses are 1 s and 2 s; timers keep them to the millisecond.
+  assert.ok(times[1] - times[0] > 995 && times[2] - times[1] > 1995, `failed at ${times} ms`);
+});
+
+test('an image that the browser cannot read is said, and the rest comes', async (t) => {
+  const { page } = await openPack(t, () => SMALL, `{
+    const original = createImageBitmap;
+    globalThis.createImageBitmap = (source, ...values) =>
+      source instanceof Blob && values[0].resizeWidth ? Promise.reject(new Error('no such format')) : original(source, ...values);
+  }`);
+  await complete(page);
+  const [{ reason, message }] = await failures(page, 1);
+  assert.equal(reason, 'unreadable');
+  assert.match(message, /image of stream \d+ .*no such format/);
+});
+
+test('an update that does not fit the opening ends the stream in words', async (t) => {
+  const { page } = await openPack(t, () => SMALL, COUNT_WORKERS);
+  await complete(page);
+  await page.evaluate(() => {
+    const { pack } = document.querySelector('lightwell-view');
+    const [{ definition }] = pack.grids;
+    pack.receive({ type: 'light', stream: definition.stream, width: 1, height: 1, depth: 1, atlas: new Uint16Array(4) });
+  });
+  const [{ reason, message }] = await failures(page, 1);
+  assert.equal(reason, 'unreadable');
+  assert.match(message, /another size/);
+  assert.equal(await page.evaluate(() => globalThis.workers.alive), 0);
+});
+
+test('a listener that throws does not stop the stream', async (t) => {
+  const throwing = `addEventListener('DOMContentLoaded', () => {
+    const view = document.querySelector('lightwell-view');
+    view.addEventListener('load', () => view.pack.addEventListener('progress', () => { throw new Error('on purpose'); }));
+  });`;
+  const { page, errors } = await openPack(t, () => SMALL, throwing);
+  await complete(page);
+  assert.ok(errors.length > 0 && errors.every((error) => /on purpose/.test(error)), `${errors}`);
+});
