@@ -7,6 +7,9 @@ import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
 import { complete } from './view.mjs';
 
+/** Shadows are drawn anew at most twice a second, so the last ones come so much behind the last triangles; milliseconds. */
+const LAST_SHADOWS = 600;
+
 const folder = temporaryFolder();
 writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
 let browser;
@@ -47,6 +50,7 @@ const picture = (page) => page.evaluate(() => document.querySelector('lightwell-
 
 test('a still picture is not drawn again', async (t) => {
   const { page } = await openView(t);
+  await page.waitForTimeout(LAST_SHADOWS);
   await page.waitForFunction(() => document.querySelector('lightwell-view').frameRate === 0);
   await page.evaluate(() => {
     globalThis.draws = 0;
