@@ -12,6 +12,8 @@
 // scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
 // in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the form "patched" of the values. Red of texel (1, 0, 0) is
 // 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there.
+//
+// docs/decisions/011-cost-of-the-lookup.md tells what costs how much.
 
 #if NUM_LIGHT_PROBE_GRIDS > 0
 
@@ -35,10 +37,17 @@ vec3 turnIntoGrid( vec3 v, vec3 q ) {
 
 }
 
+// The size of the box of the nodes of a grid of Lightwell's in the world, negative where the world mirrors it.
+vec3 sizeOfGrid( vec3 probesResolution ) {
+
+	return probesResolution * vec3( 1.0, 1.0, - 1.0 );
+
+}
+
 // A world position as a fraction of the box of the nodes of a grid of Lightwell's.
 vec3 fractionOfGrid( vec3 worldPos, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
 
-	return turnIntoGrid( worldPos - probesMin, probesMax ) / ( probesResolution * vec3( 1.0, 1.0, - 1.0 ) );
+	return turnIntoGrid( worldPos - probesMin, probesMax ) / sizeOfGrid( probesResolution );
 
 }
 
@@ -59,67 +68,30 @@ bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, ve
 
 }
 
-// Where and how an atlas is read for one fragment.
-struct LightProbeLookup {
-	vec3 uvw;      // the place in a grid of one texel a probe
-	vec3 normal;   // in the axes of the coefficients
-	mat3 toGrid;   // world directions to these axes, up to length
-};
-
-LightProbeLookup lookupOfLightwell( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
-
-	vec4 header = texelFetch( probesSH, ivec3( 0 ), 0 );
-	vec3 size = vec3( textureSize( probesSH, 0 ) );
-	vec3 nodes = vec3( size.xy, size.z / 7.0 - 2.0 );
-
-	// Surfaces of a stretched object keep the normals that they had unstretched: a normal is multiplied by the stretch, the
-	// ratio of the cells' sides in the world to those in the grid.
-	vec3 stretch = probesResolution * vec3( 1.0, 1.0, - 1.0 ) / ( ( nodes - 1.0 ) * header.rgb );
-
-	LightProbeLookup lookup;
-	lookup.toGrid = mat3(
-		stretch * turnIntoGrid( vec3( 1.0, 0.0, 0.0 ), probesMax ),
-		stretch * turnIntoGrid( vec3( 0.0, 1.0, 0.0 ), probesMax ),
-		stretch * turnIntoGrid( vec3( 0.0, 0.0, 1.0 ), probesMax )
-	);
-	lookup.normal = normalize( lookup.toGrid * worldNormal );
-
-	vec3 node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * ( nodes - 1.0 ) + header.a * lookup.normal;
-	lookup.uvw = ( clamp( node, vec3( 0.0 ), nodes - 1.0 ) + 0.5 ) / nodes;
-	return lookup;
-
-}
-
-LightProbeLookup lookupOfThree( vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
-
-	vec3 gridRange = probesMax - probesMin;
-	vec3 samplePos = worldPos + worldNormal * gridRange / probesResolution * 0.5;
-
-	LightProbeLookup lookup;
-	lookup.toGrid = mat3( 1.0 );
-	lookup.normal = worldNormal;
-	lookup.uvw = clamp( ( samplePos - probesMin ) / gridRange, 0.5 / probesResolution, 1.0 - 0.5 / probesResolution );
-	return lookup;
-
-}
-
 // The light at the fragment for every direction. Kept from the irradiance to the reflection, which so costs no fetch more.
 struct LightProbeSample {
 	vec3 c[ 9 ];     // coefficients of the spherical harmonics
 	float weight;    // by which they are to be divided
-	mat3 toGrid;
+	vec3 turn;       // a world direction in their axes is turned back by this quaternion ...
+	vec3 stretch;    // ... and stretched, up to length
 	bool reflects;   // whether metals take their reflection from here: in grids of Lightwell's
 	bool sky;        // whether the light of the environment is in it already
 };
 
-LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, mat3( 1.0 ), false, false );
+LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, vec3( 0.0 ), vec3( 1.0 ), false, false );
 
-// Seven fetches, filtered by the hardware: the 28 channels of the seven sub-volumes stacked along z.
-void fetchLightProbes( highp sampler3D probesSH, vec3 uvw ) {
+// A world direction in the axes of the sample, of length 1.
+vec3 directionInGrid( vec3 worldDirection ) {
 
-	float depth = float( textureSize( probesSH, 0 ).z );
-	float paddedSlices = depth / 7.0;
-	vec3 at = vec3( uvw.xy, ( uvw.z * ( paddedSlices - 2.0 ) + 1.0 ) / depth );
+	return normalize( lightProbeSample.stretch * turnIntoGrid( worldDirection, lightProbeSample.turn ) );
+
+}
+
+// Seven fetches, filtered by the hardware: the 28 channels of the seven sub-volumes stacked along z. `node` is the place in
+// nodes, its whole numbers; a slice of padding lies before the first of them.
+void fetchLightProbes( highp sampler3D probesSH, vec3 node, vec3 atlasSize ) {
+
+	vec3 at = ( node + vec3( 0.5, 0.5, 1.5 ) ) / atlasSize;
 	vec3 next = vec3( 0.0, 0.0, 1.0 / 7.0 );
 
 	vec4 s0 = texture( probesSH, at );
@@ -147,14 +119,14 @@ void fetchLightProbes( highp sampler3D probesSH, vec3 uvw ) {
 vec3 evaluateLightProbes( vec3 n ) {
 
 	vec3 result = lightProbeSample.c[ 0 ] * 0.886227;
-	result += lightProbeSample.c[ 1 ] * 2.0 * 0.511664 * n.y;
-	result += lightProbeSample.c[ 2 ] * 2.0 * 0.511664 * n.z;
-	result += lightProbeSample.c[ 3 ] * 2.0 * 0.511664 * n.x;
-	result += lightProbeSample.c[ 4 ] * 2.0 * 0.429043 * n.x * n.y;
-	result += lightProbeSample.c[ 5 ] * 2.0 * 0.429043 * n.y * n.z;
+	result += lightProbeSample.c[ 1 ] * ( 1.023328 * n.y );
+	result += lightProbeSample.c[ 2 ] * ( 1.023328 * n.z );
+	result += lightProbeSample.c[ 3 ] * ( 1.023328 * n.x );
+	result += lightProbeSample.c[ 4 ] * ( 0.858086 * n.x * n.y );
+	result += lightProbeSample.c[ 5 ] * ( 0.858086 * n.y * n.z );
 	result += lightProbeSample.c[ 6 ] * ( 0.743125 * n.z * n.z - 0.247708 );
-	result += lightProbeSample.c[ 7 ] * 2.0 * 0.429043 * n.x * n.z;
-	result += lightProbeSample.c[ 8 ] * 0.429043 * ( n.x * n.x - n.y * n.y );
+	result += lightProbeSample.c[ 7 ] * ( 0.858086 * n.x * n.z );
+	result += lightProbeSample.c[ 8 ] * ( 0.429043 * ( n.x * n.x - n.y * n.y ) );
 	return max( result / lightProbeSample.weight, vec3( 0.0 ) );
 
 }
@@ -162,16 +134,28 @@ vec3 evaluateLightProbes( vec3 n ) {
 vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
 
 	bool ours = isLightwellGrid( probesResolution );
-	LightProbeLookup lookup;
-	if ( ours ) lookup = lookupOfLightwell( probesSH, probesMin, probesMax, probesResolution, worldPos, worldNormal );
-	else lookup = lookupOfThree( probesMin, probesMax, probesResolution, worldPos, worldNormal );
+	vec3 atlasSize = vec3( textureSize( probesSH, 0 ) );
+	vec3 last = vec3( atlasSize.xy - 1.0, atlasSize.z / 7.0 - 3.0 );
+	vec3 normal = worldNormal;
+	vec3 node = ( worldPos - probesMin ) / ( probesMax - probesMin ) * probesResolution - 0.5 + 0.5 * worldNormal;
 
-	fetchLightProbes( probesSH, lookup.uvw );
-	if ( ! ours ) lightProbeSample.weight = 1.0;
-	lightProbeSample.toGrid = lookup.toGrid;
+	if ( ours ) {
+
+		// Surfaces of a stretched object keep the normals that they had unstretched: a normal is multiplied by the stretch, the
+		// ratio of the cells' sides in the world to those in the grid.
+		vec4 header = texelFetch( probesSH, ivec3( 0 ), 0 );
+		lightProbeSample.turn = probesMax;
+		lightProbeSample.stretch = sizeOfGrid( probesResolution ) / ( last * header.rgb );
+		lightProbeSample.sky = texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 ).r > 0.5;
+		normal = directionInGrid( worldNormal );
+		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last + header.a * normal;
+
+	}
+
+	fetchLightProbes( probesSH, clamp( node, vec3( 0.0 ), last ), atlasSize );
 	lightProbeSample.reflects = ours;
-	lightProbeSample.sky = ours && texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 ).r > 0.5;
-	return evaluateLightProbes( lookup.normal );
+	if ( ! ours ) lightProbeSample.weight = 1.0;
+	return evaluateLightProbes( normal );
 
 }
 
@@ -180,7 +164,7 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 vec3 getLightProbeGridRadiance( vec3 worldDirection ) {
 
 	if ( ! lightProbeSample.reflects ) return vec3( 0.0 );
-	return evaluateLightProbes( normalize( lightProbeSample.toGrid * worldDirection ) ) / PI;
+	return evaluateLightProbes( directionInGrid( worldDirection ) ) * RECIPROCAL_PI;
 
 }
 

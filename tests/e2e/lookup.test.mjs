@@ -52,3 +52,19 @@ test('a material receives the irradiance that light/ computes, wherever the grid
   assert.equal(count(/irradiance \+= getLightProbeGridIrradiance\(/g), 1, 'called once for the one grid');
   assert.deepEqual(errors, []);
 });
+
+test('a grid of three.js’s own lights as before', async (t) => {
+  const server = await startStaticServer(await scriptPage('tests/e2e/pages/stock_grid.ts'));
+  t.after(() => server.stop());
+  const { page, errors } = await openPage(browser);
+  await page.goto(server.url);
+  await page.waitForFunction(() => globalThis.run !== undefined);
+  const { stock, patched } = await page.evaluate(() => globalThis.run());
+  const lit = stock.filter((value, i) => i % 4 < 3 && value > 0.01).length;
+  assert.ok(lit > 1000, `only ${lit} values are lit`);
+  const largest = Math.max(...stock);
+  stock.forEach((expected, i) => {
+    assert.ok(Math.abs(patched[i] - expected) <= TOLERANCE * largest, `value ${i}: ${patched[i]}, not ${expected}`);
+  });
+  assert.deepEqual(errors, []);
+});
