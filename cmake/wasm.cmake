@@ -6,9 +6,8 @@ find_program(LIGHTWELL_WASM_CXX clang++-19 REQUIRED)
 
 set(wasm_folder ${CMAKE_BINARY_DIR}/wasm)
 set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
-# For size: 49.8 KB in brotli, 48.2 where binaryen is installed, whose wasm-opt clang calls by itself. With -O2 for base, mesh
-# and light it is 56.7 KB, and a pack of 400 k triangles is decoded in 0.43 instead of 0.54 s of CPU time, in a worker, while
-# its bytes take longer to come.
+# For size: docs/decisions/008-size-of-the-page.md. -O2 for base, mesh and light adds 7 KB in brotli; a pack of 400 k triangles is
+# then decoded in 0.43 instead of 0.54 s of CPU time, in a worker, while its bytes take longer to come.
 set(wasm_flags --target=wasm32-wasi -std=c++20 -Oz -flto -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
   -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
   -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
@@ -38,8 +37,17 @@ endfunction()
 
 lightwell_client_sources(wasm_sources base mesh light texture pack client)
 lightwell_wasm_objects(wasm_objects ${wasm_sources})
+
+# Clang calls wasm-opt by itself where it is installed, but does not tell it that the linker keeps the first 1024 bytes of memory
+# free, so that a pointer with a small offset cannot wrap round.
+find_program(LIGHTWELL_WASM_OPT wasm-opt)
+set(wasm_shorten "")
+if(LIGHTWELL_WASM_OPT)
+  set(wasm_shorten COMMAND ${LIGHTWELL_WASM_OPT} -Oz --low-memory-unused ${wasm_module} -o ${wasm_module})
+endif()
 add_custom_command(OUTPUT ${wasm_module}
   COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Oz -flto -Wl,--gc-sections -Wl,--strip-all
           ${wasm_objects} -o ${wasm_module}
+  ${wasm_shorten}
   DEPENDS ${wasm_objects} COMMENT "Linking lib/lightwell.wasm" VERBATIM)
 add_custom_target(lightwell_client_wasm ALL DEPENDS ${wasm_module})

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <deque>
 #include <span>
 
 #include "lightwell/client/refiner.h"
@@ -73,6 +72,7 @@ class MeshRefiner final : public Refiner {
     const Bytes indices = bytes_of(decoder_.indices());
     enqueue(RangeUpdate::indices, indices, 4, changes.indices);
     for (const BufferRange& range : changes.rewired) enqueue(RangeUpdate::indices, indices, 4, range);
+    std::ranges::reverse(ranges_);
     changed_ = false;
     batch_ = true;
   }
@@ -85,9 +85,9 @@ class MeshRefiner final : public Refiner {
     ranges_.push_back(RangeUpdate{stream_, buffer, offset, bytes.subspan(offset, size_t(range.count) * stride)});
   }
 
-  /// The first of the ranges, or as much of it as fits.
+  /// The next of the ranges, or as much of it as fits.
   RangeUpdate next_range(size_t budget) {
-    RangeUpdate& range = ranges_.front();
+    RangeUpdate& range = ranges_.back();
     const size_t length = std::max<size_t>(budget / 4 * 4, 4);
     RangeUpdate update = range;
     if (range.data.size() > length) {
@@ -95,7 +95,7 @@ class MeshRefiner final : public Refiner {
       range.data = range.data.subspan(length);
       range.offset += static_cast<uint32_t>(length);
     } else {
-      ranges_.pop_front();
+      ranges_.pop_back();
     }
     return update;
   }
@@ -105,8 +105,8 @@ class MeshRefiner final : public Refiner {
   std::vector<AttributeLayout> attributes_;
   bool announced_ = false;
   bool changed_ = true;
-  bool batch_ = false;              ///< a hand-over is under way
-  std::deque<RangeUpdate> ranges_;  ///< what is left of it before the draw count
+  bool batch_ = false;               ///< a hand-over is under way
+  std::vector<RangeUpdate> ranges_;  ///< what is left of it before the draw count, the next one last
 };
 
 }  // namespace

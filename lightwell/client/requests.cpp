@@ -20,8 +20,8 @@ std::optional<Action> Requests::next(std::span<const float> weights, double now)
   looked_ = now;
   if (!stopped_) drop_silent(now);
   if (!cancels_.empty()) {
-    const uint32_t id = cancels_.front();
-    cancels_.pop_front();
+    const uint32_t id = cancels_.back();
+    cancels_.pop_back();
     return Action{Action::Kind::cancel, id};
   }
   if (stopped_ || whole_ || now < line_.retry_at()) return std::nullopt;

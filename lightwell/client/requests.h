@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lightwell/client/action.h"
 #include "lightwell/client/download.h"
@@ -70,7 +70,7 @@ class Requests {
   uint32_t next_id_ = 1;
   double looked_ = -1;  ///< time of the last next()
   Open open_;
-  std::deque<uint32_t> cancels_;
+  std::vector<uint32_t> cancels_;
   std::optional<uint32_t> whole_;  ///< the one response that brings the whole file
   std::string etag_;
   uint64_t length_ = 0;  ///< of the file, as the server says; 0 while unknown

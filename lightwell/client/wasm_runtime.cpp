@@ -21,3 +21,8 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+// WebAssembly has instructions for these, to which the compiler's builtins turn; the C library was built without.
+extern "C" void* memcpy(void* to, const void* from, std::size_t size) { return __builtin_memcpy(to, from, size); }
+extern "C" void* memmove(void* to, const void* from, std::size_t size) { return __builtin_memmove(to, from, size); }
+extern "C" void* memset(void* to, int value, std::size_t size) { return __builtin_memset(to, value, size); }

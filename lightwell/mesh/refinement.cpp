@@ -160,7 +160,9 @@ MeshChanges Refinement::take_changes() {
   MeshChanges changes;
   changes.vertices = {reported_vertices_, vertices() - reported_vertices_};
   changes.indices = {3 * reported_faces_, 3 * (faces() - reported_faces_)};
-  std::sort(rewired_.begin(), rewired_.end());
+  // A heap sort is a quarter of std::sort's code, which counts in a page.
+  std::ranges::make_heap(rewired_);
+  std::ranges::sort_heap(rewired_);
   for (const uint32_t corner : rewired_) {
     auto& ranges = changes.rewired;
     if (ranges.empty() || corner > ranges.back().first + ranges.back().count + mergeable_gap)
