@@ -15,12 +15,12 @@ const TURN_FRAMES = 10;
 /** A million triangles in software take their time, on a busy machine the more; milliseconds. */
 const PATIENCE = 300_000;
 
-/** Runs in the page before its scripts: times each of its animation frames that draws. */
+/** Runs in the page before its scripts: times each of its animation frames that draws a picture. */
 const TIME_FRAMES = `{
   globalThis.frameTimes = [];
   const { drawElements } = WebGL2RenderingContext.prototype;
   let drew = null;
-  WebGL2RenderingContext.prototype.drawElements = function (...values) { drew = this; return drawElements.apply(this, values); };
+  WebGL2RenderingContext.prototype.drawElements = function (...values) { if (values[1] > 0) drew = this; return drawElements.apply(this, values); };
   const request = globalThis.requestAnimationFrame.bind(globalThis);
   globalThis.requestAnimationFrame = (callback) => request((time) => {
     drew = null;

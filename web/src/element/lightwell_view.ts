@@ -238,7 +238,7 @@ export class LightwellView extends HTMLElement {
   #show(pack: LightwellScene): void {
     const stage = this.#stage!;
     this.#pack = pack;
-    pack.addEventListener('change', () => stage.invalidate());
+    pack.addEventListener('change', () => stage.invalidateSeldom());
     pack.addEventListener('geometry', () => stage.invalidateShadows());
     pack.addEventListener('progress', ({ progress }) => {
       this.#progress = progress;

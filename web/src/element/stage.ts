@@ -21,10 +21,16 @@ export class Stage {
   afterFrame: () => void = () => {};
   /** The vertical field of view of a canvas that is at least as wide as high, in degrees. */
   fieldOfView = 45;
+  readonly #gl: WebGL2RenderingContext;
   #request = 0;
   #running = true;
   #lastFrame = -Infinity;
   #interval = Infinity;
+  /** When a frame was drawn, how long the GPU took for it, and what tells that it is done. */
+  #drawn = -Infinity;
+  #duration = 0;
+  #fence: WebGLSync | null = null;
+  #seldomRequest = 0;
   #shadowTime = -Infinity;
   #shadowTimer: ReturnType<typeof setTimeout> | undefined;
 
@@ -32,11 +38,15 @@ export class Stage {
   constructor() {
     const context = this.canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
     if (context === null) throw new Error('This browser has no WebGL2, which it takes to show a 3D scene.');
+    this.#gl = context;
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
-    this.canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
+    this.canvas.addEventListener('webglcontextlost', (event) => {
+      event.preventDefault();
+      this.#fence = null;
+    });
     this.canvas.addEventListener('webglcontextrestored', () => this.invalidateShadows());
     this.setTone('neutral');
   }
@@ -74,6 +84,16 @@ export class Stage {
     if (this.#running && this.#request === 0) this.#request = requestAnimationFrame((time) => this.draw(time));
   }
 
+  /**
+   * Asks for a frame that shows what has come. The GPU draws such frames half of the time at most: the other half is for handing
+   * over what comes next, so that a slow GPU gets to the end.
+   */
+  invalidateSeldom(): void {
+    cancelAnimationFrame(this.#seldomRequest);
+    if (this.#rested()) this.invalidate();
+    else this.#seldomRequest = requestAnimationFrame(() => this.invalidateSeldom());
+  }
+
   /** The next frame shows what moved in its shadows too; at most twice a second. */
   invalidateShadows(): void {
     clearTimeout(this.#shadowTimer);
@@ -84,7 +104,7 @@ export class Stage {
     }
     this.#shadowTime = performance.now();
     this.renderer.shadowMap.needsUpdate = true;
-    this.invalidate();
+    this.invalidateSeldom();
   }
 
   /** While stopped no frame is drawn but by `draw` and `resize`; what was asked for meanwhile is drawn at the start. */
@@ -103,12 +123,29 @@ export class Stage {
     this.#lastFrame = time;
     this.beforeFrame(Math.min(interval, PAUSE) / 1000);
     this.renderer.render(this.scene, this.camera);
+    this.#drawn = performance.now();
+    this.#gl.deleteSync(this.#fence);
+    this.#fence = this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.#gl.flush();
     this.afterFrame();
+  }
+
+  /** Whether the GPU has been free for as long as the last frame took. */
+  #rested(): boolean {
+    const now = performance.now();
+    if (this.#fence !== null) {
+      if (this.#gl.getSyncParameter(this.#fence, this.#gl.SYNC_STATUS) !== this.#gl.SIGNALED) return false;
+      this.#gl.deleteSync(this.#fence);
+      this.#fence = null;
+      this.#duration = now - this.#drawn;
+    }
+    return now >= this.#drawn + 2 * this.#duration;
   }
 
   dispose(): void {
     this.setRunning(false);
     clearTimeout(this.#shadowTimer);
+    cancelAnimationFrame(this.#seldomRequest);
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }

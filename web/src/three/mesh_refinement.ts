@@ -47,7 +47,6 @@ export class MeshRefinement implements Refinement {
   readonly geometry = new BufferGeometry();
   readonly #attributes: BufferAttribute[];
   readonly #index: HalfBuffers;
-  readonly #finalFaces: number;
   #batches: Batch[] = [];
   /** The batches of the present step. */
   #step: Batch[] = [];
@@ -63,7 +62,6 @@ export class MeshRefinement implements Refinement {
       const source = base.getAttribute(name);
       if (source !== undefined) copyElements(source as BufferAttribute, this.#attributes[i]!);
     });
-    this.#finalFaces = layout.faces;
     this.#index = new HalfBuffers(3 * layout.faces);
     const baseIndices = base.index?.array ?? Uint32Array.from({ length: base.getAttribute('position').count }, (_, i) => i);
     this.#index.initialise(baseIndices);
@@ -81,11 +79,6 @@ export class MeshRefinement implements Refinement {
     const [next] = this.#batches;
     const waiting = next !== undefined && (next.faces !== null || next.fresh.length > 0);
     return this.#step.length > 0 || this.#index.sweeping || waiting;
-  }
-
-  /** Whether the final mesh is drawn. */
-  get complete(): boolean {
-    return this.geometry.drawRange.count === 3 * this.#finalFaces && !this.pending;
   }
 
   receive(event: RangeEvent | DrawEvent): void {

@@ -3,7 +3,7 @@ import type { UploadBudget } from './upload_budget.js';
 
 /** Something that streams into buffers or textures which have their final sizes from the start. */
 export interface Refinement {
-  /** Hands over what the budget allows, right before a frame. True when the picture changes by it. */
+  /** Hands over what the budget allows. True when the picture is a new one by it. */
   advance(budget: UploadBudget): boolean;
   /** Whether there is something to hand over. */
   readonly pending: boolean;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
   Box3,
+  type BufferGeometry,
   type Camera,
   DirectionalLight,
   DoubleSide,
@@ -24,6 +25,7 @@ import {
   type UpdateEvent,
   payload,
 } from '../core/protocol.js';
+import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
 import { LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp } from './lamps.js';
@@ -37,9 +39,9 @@ import { meshWeights } from './view_weights.js';
 import { drawsEdges, showEdges } from './wireframe.js';
 
 export interface LightwellSceneEventMap extends Object3DEventMap {
-  /** The picture changes with the next frame: where frames are drawn on demand, draw one. */
+  /** The picture has changed: where frames are drawn on demand, draw one. */
   change: object;
-  /** Meshes have more faces from this frame on: shadows drawn on demand are to be drawn anew. */
+  /** Meshes have more faces from now on: shadows drawn on demand are to be drawn anew. */
   geometry: object;
   progress: { progress: Progress };
   connection: { state: ConnectionEvent['state'] };
@@ -55,8 +57,9 @@ export interface SceneOptions {
 }
 
 /**
- * A pack in a three.js scene. It refines itself while it is rendered: before each frame at most 256 KB go to the GPU, into
- * buffers and textures that have their final sizes from the start. It may be moved, turned and scaled; its light follows.
+ * A pack in a three.js scene. It refines itself: in each of the browser's animation frames at most 256 KB go to the GPU, into
+ * buffers and textures that have their final sizes from the start; a picture is worth drawing only at a `change`. It may be
+ * moved, turned and scaled; its light follows.
  */
 export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** The baked light. Objects of the user's own within its bounds are lit by it. */
@@ -73,8 +76,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #meshes = new Map<number, MeshRefinement>();
   readonly #images: Map<number, TextureRefinement>;
   readonly #lights = new Map<number, LightRefinement>();
-  #frame = -1;
-  #pending = false;
+  readonly #handOver: HandOver;
+  #request = 0;
   #received = false;
   #complete = false;
   #wireframe = false;
@@ -92,6 +95,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#images = images;
     this.#connection = connection;
     this.#renderer = renderer;
+    this.#handOver = new HandOver(renderer);
     renderer.domElement.addEventListener('webglcontextrestored', this.#restart);
     this.add(opening.gltf.scene);
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
@@ -149,6 +153,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   override dispose(): void {
     super.dispose();
     this.#connection.close();
+    cancelAnimationFrame(this.#request);
+    this.#handOver.dispose();
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     for (const lamp of this.lamps) lamp.dispose();
@@ -172,12 +178,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       case 'connection':
         this.#received = event.state === 'complete';
         this.dispatchEvent({ type: 'connection', state: event.state });
-        return this.#changed();
+        return this.#refineSoon();
       case 'failure':
         return void this.dispatchEvent({ type: 'failure', reason: event.reason, message: event.message });
       default:
-        this.#update(event);
-        return this.#changed();
+        return this.#update(event);
     }
   }
 
@@ -209,38 +214,39 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.dispatchEvent({ type: 'failure', reason: 'unreadable', message: messageOf(error) });
   }
 
-  /** Right before a frame, when three.js brings the scene's matrices up to date, comes what streams in. */
-  override updateMatrixWorld(force?: boolean): void {
-    super.updateMatrixWorld(force);
-    const frame = this.#renderer.info.render.frame;
-    if (frame !== this.#frame) this.#refine();
-    this.#frame = frame;
-    // In every case: a frame whose matrices were brought up to date before it began brings nothing, and asks for the next one.
-    if (this.#pending) this.#changed();
+  #refineSoon(): void {
+    if (this.#request === 0) this.#request = requestAnimationFrame(() => this.#refine());
   }
 
+  /** Hands over what an animation frame has room for. */
   #refine(): void {
+    this.#request = 0;
     const budget = new UploadBudget();
-    let consumed = 0;
-    this.#pending = false;
+    const touched: BufferGeometry[] = [];
+    let [changed, grown, pending, consumed] = [false, false, false, 0];
     for (const refinement of this.#refinements()) {
-      const changed = refinement.advance(budget);
-      if (changed && refinement instanceof MeshRefinement) this.#onGeometry(refinement);
+      const left = budget.left;
+      const advanced = refinement.advance(budget);
+      changed ||= advanced;
+      if (refinement instanceof MeshRefinement) {
+        grown ||= advanced;
+        if (budget.left < left) touched.push(refinement.geometry);
+      }
       consumed += refinement.takeConsumed();
-      this.#pending ||= refinement.pending;
+      pending ||= refinement.pending;
     }
+    this.#handOver.run(touched);
     if (consumed > 0) this.#connection.consumed(consumed);
-    if (this.#pending || !this.#received || this.#complete) return;
+    if (grown) this.dispatchEvent({ type: 'geometry' });
+    if (changed) this.#changed();
+    if (pending) this.#refineSoon();
+    else if (this.#received && !this.#complete) this.#onComplete();
+  }
+
+  #onComplete(): void {
     this.#complete = true;
     this.setWireframe(this.#wireframe);
     this.dispatchEvent({ type: 'complete' });
-  }
-
-  #onGeometry(refinement: MeshRefinement): void {
-    this.dispatchEvent({ type: 'geometry' });
-    if (!refinement.complete) return;
-    for (const { meshes } of this.opening.primitives.values())
-      for (const mesh of meshes) if (mesh.geometry === refinement.geometry) mesh.frustumCulled = true;
   }
 
   /** In the order in which they share a frame's bytes: light is small and seen everywhere. */
@@ -257,6 +263,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   ): void {
     if (refinement === undefined) this.#connection.consumed(payload(event)?.byteLength ?? 0);
     else refinement.receive(event)?.catch((error: unknown) => this.#fail(error));
+    this.#refineSoon();
   }
 
   #startMesh(layout: MeshEvent): void {
@@ -265,11 +272,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const { min, max } = primitive.extension.bounds;
     const bounds = new Box3(new Vector3(...min), new Vector3(...max));
     const refinement = new MeshRefinement(layout, primitive.base, bounds);
-    for (const mesh of primitive.meshes) {
-      mesh.geometry = refinement.geometry;
-      // three.js hands nothing over of what it does not draw: it would all come at once when it comes into sight.
-      mesh.frustumCulled = false;
-    }
+    for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
+    this.#handOver.run([refinement.geometry]);
     primitive.base.dispose();
     this.#meshes.set(layout.stream, refinement);
   }

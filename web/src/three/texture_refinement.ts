@@ -76,7 +76,7 @@ export class TextureRefinement implements Refinement {
       texture.mipmapsAutoUpdate = true;
     }
     if (this.#sweep.done) this.#finish();
-    return true;
+    return this.#sweep.done;
   }
 
   takeConsumed(): number {
