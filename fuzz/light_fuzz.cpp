@@ -13,7 +13,7 @@ using namespace lightwell;
 namespace {
 
 // Large grids would only slow the search down.
-constexpr size_t most_nodes = 4096;
+constexpr size_t most_nodes = 512;
 constexpr uint64_t any_length = uint64_t(1) << 40;
 
 void draw(const LightDecoder& decoder) {
