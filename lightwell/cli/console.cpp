@@ -30,12 +30,15 @@ std::string short_number(double value) {
   return text;
 }
 
+/// The name of an entry of the array or object that is called `key`; the outermost one has no name.
+std::string entry_name(const std::string& key, const std::string& name, bool in_array) {
+  if (key.empty()) return name;
+  return in_array ? key + "[" + name + "]" : key + "." + name;
+}
+
 void print_lines(const nlohmann::ordered_json& value, const std::string& key) {
   if (value.is_structured()) {
-    for (const auto& [name, item] : value.items()) {
-      const bool number = value.is_array();
-      print_lines(item, key.empty() ? name : number ? key + "[" + name + "]" : key + "." + name);
-    }
+    for (const auto& [name, item] : value.items()) print_lines(item, entry_name(key, name, value.is_array()));
     return;
   }
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
