@@ -196,7 +196,7 @@ std::string add_mesh(const Mesh& mesh, bool textured, size_t stream_number, Open
          ",\"extensions\":{\"LIGHTWELL_progressive_mesh\":{\"stream\":" + std::to_string(stream_number) +
          ",\"vertices\":" + std::to_string(encoded.layout.vertices) +
          ",\"faces\":" + std::to_string(encoded.layout.faces) + ",\"bounds\":{\"min\":" + triple(all.lo) +
-         ",\"max\":" + triple(all.hi) + "}}}}";
+         ",\"max\":" + triple(all.hi) + "},\"error\":" + std::to_string(encoded.layout.base_error) + "}}}";
 }
 
 PackStream light_stream(const LightGrid& grid) {

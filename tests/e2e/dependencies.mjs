@@ -12,4 +12,4 @@ export const { chromium } = require('playwright-core');
 export const { build } = require('esbuild');
 export const { validateBytes } = require('gltf-validator');
 export const { NodeIO } = require('@gltf-transform/core');
-export const { ShaderChunk } = await import(require.resolve('three').replace('three.cjs', 'three.module.js'));
+export const three = await import(require.resolve('three').replace('three.cjs', 'three.module.js'));

@@ -16,6 +16,8 @@ export interface StreamsExtension {
 export interface ProgressiveMeshExtension {
   stream: number;
   bounds: { min: Triple; max: Triple };
+  /** Of the coarsest level: its distance from the final one, in metres of the mesh's space. */
+  error: number;
 }
 
 /** On a texture. */

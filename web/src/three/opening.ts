@@ -10,10 +10,13 @@ export interface ProgressivePrimitive {
   base: BufferGeometry;
 }
 
-/** An image that a stream refines: the textures that show it. */
+/** An image that a stream refines: the textures that show it, and the meshes whose materials have these. */
 export interface ProgressiveImage {
   extension: ProgressiveTextureExtension;
   textures: Texture[];
+  meshes: Mesh[];
+  /** The longer side of what the opening holds of it, in texels. */
+  previewSize: number;
 }
 
 /** What three.js's own loader makes of a pack's opening, with what Lightwell's streams will refine. */
@@ -75,26 +78,29 @@ function progressivePrimitives(gltf: GLTF): Map<number, ProgressivePrimitive> {
 function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
   const definitions = gltf.parser.json as { textures?: { extensions?: Record<string, unknown> }[] };
   const images = new Map<number, ProgressiveImage>();
-  for (const texture of texturesOf(gltf.scene)) {
+  for (const [texture, meshes] of texturesOf(gltf.scene)) {
     const at = gltf.parser.associations.get(texture) as { textures?: number } | undefined;
     const extension = definitions.textures?.[at?.textures ?? -1]?.extensions?.['LIGHTWELL_progressive_texture'] as
       | ProgressiveTextureExtension
       | undefined;
     if (extension === undefined) continue;
     const known = images.get(extension.stream);
-    if (known !== undefined) known.textures.push(texture);
-    else images.set(extension.stream, { extension, textures: [texture] });
+    const { width, height } = texture.image as ImageBitmap;
+    const image = known ?? { extension, textures: [], meshes: [], previewSize: Math.max(width, height) };
+    image.textures.push(texture);
+    image.meshes.push(...meshes);
+    images.set(extension.stream, image);
   }
   return images;
 }
 
-/** The textures of an object's materials, each once. */
-export function texturesOf(root: Object3D): Set<Texture> {
-  const textures = new Set<Texture>();
+/** The textures of an object's materials, each once, with the meshes that show it. */
+function texturesOf(root: Object3D): Map<Texture, Mesh[]> {
+  const textures = new Map<Texture, Mesh[]>();
   root.traverse((object) => {
     if (!(object instanceof Mesh)) return;
-    for (const material of [object.material].flat())
-      for (const value of Object.values(material)) if ((value as Texture | null)?.isTexture === true) textures.add(value as Texture);
+    const values: (Texture | null)[] = [object.material].flat().flatMap((material) => Object.values(material));
+    for (const value of values) if (value?.isTexture === true) textures.set(value, [...(textures.get(value) ?? []), object]);
   });
   return textures;
 }

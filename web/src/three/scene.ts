@@ -35,7 +35,7 @@ import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
 import { TextureRefinement } from './texture_refinement.js';
 import { UploadBudget } from './upload_budget.js';
-import { meshWeights } from './view_weights.js';
+import { viewWeights } from './view_weights.js';
 import { drawsEdges, showEdges } from './wireframe.js';
 
 export interface LightwellSceneEventMap extends Object3DEventMap {
@@ -144,9 +144,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#connection.resume();
   }
 
-  /** Lets what this camera sees largest come first. Call it when the view has changed much, not each frame. */
+  /** Lets what matters most to this camera's picture come first. Call it when the view has changed much, not each frame. */
   setView(camera: Camera, heightInPixels: number): void {
-    this.#connection.setWeights(meshWeights(this.opening.primitives, camera, heightInPixels));
+    this.#connection.setWeights(viewWeights(this.opening, this.grids, camera, heightInPixels));
   }
 
   /** Ends the streaming and gives back what the GPU holds. */

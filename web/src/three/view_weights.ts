@@ -1,35 +1,90 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, type Camera, Frustum, Matrix4, Vector3 } from 'three';
-import type { ProgressivePrimitive } from './opening.js';
+import { Box3, type Camera, Frustum, Matrix4, type Mesh, Vector3 } from 'three';
+import type { LightGridDefinition } from './extensions.js';
+import type { LightwellLight } from './light.js';
+import type { Opening, ProgressiveImage, ProgressivePrimitive } from './opening.js';
+
+/** What is out of sight comes late, not never: it counts for so much of what it would in sight. */
+const OUT_OF_SIGHT = 0.01;
+/** A grid is looked at in so many places an axis. */
+const PLACES = 5;
+
+export type StreamWeight = [stream: number, weight: number];
 
 /**
- * How much the streams of meshes matter to a picture: an error of a metre in pixels, times the share of the picture's height
- * that the object takes, squared; the mean is 1, which is also the weight of light. What is out of sight comes late, not never.
+ * How much the streams matter to a picture: of a mesh its coarsest level's error, of an image the size of its preview's texels,
+ * both in pixels and times the share of the picture that the object covers, the largest being 1; of a light grid the share of it
+ * that is seen.
  */
-export function meshWeights(
-  primitives: Map<number, ProgressivePrimitive>,
+export function viewWeights(
+  opening: Pick<Opening, 'primitives' | 'images'>,
+  grids: LightwellLight[],
   camera: Camera,
   heightInPixels: number,
-): [stream: number, weight: number][] {
-  camera.updateMatrixWorld();
-  const frustum = new Frustum().setFromProjectionMatrix(
-    new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse),
-  );
-  const eye = new Vector3().setFromMatrixPosition(camera.matrixWorld);
-  const focal = camera.projectionMatrix.elements[5]!;
-  const raw = [...primitives].map(([stream, { extension, meshes }]): [number, number] => {
-    const box = new Box3(new Vector3(...extension.bounds.min), new Vector3(...extension.bounds.max));
-    let weight = 0;
-    for (const mesh of meshes) {
-      const world = box.clone().applyMatrix4(mesh.matrixWorld);
-      const diagonal = world.getSize(new Vector3()).length();
-      const distance = Math.max(world.distanceToPoint(eye), 0.05 * diagonal, 1e-6);
-      const share = Math.min(1, (focal * diagonal) / distance / 2);
-      const seen = frustum.intersectsBox(world) ? 1 : 0.01;
-      weight = Math.max(weight, ((seen * focal * heightInPixels) / 2 / distance) * share * share);
+): StreamWeight[] {
+  const view = new View(camera, heightInPixels);
+  const geometry = [...opening.primitives, ...opening.images].map(([stream, shown]): StreamWeight => [
+    stream,
+    Math.max(0, ...shown.meshes.map((mesh) => ('base' in shown ? view.ofMesh(mesh, shown) : view.ofImage(mesh, shown)))),
+  ]);
+  const largest = Math.max(Number.MIN_VALUE, ...geometry.map(([, weight]) => weight));
+  return [
+    ...geometry.map(([stream, weight]): StreamWeight => [stream, weight / largest]),
+    ...grids.map((grid): StreamWeight => [grid.definition.stream, view.ofGrid(grid.definition, grid.matrixWorld)]),
+  ];
+}
+
+class View {
+  readonly #frustum: Frustum;
+  readonly #eye: Vector3;
+  /** Half the picture's heights that a metre takes at a metre's distance. */
+  readonly #focal: number;
+
+  constructor(
+    camera: Camera,
+    readonly heightInPixels: number,
+  ) {
+    camera.updateMatrixWorld();
+    const toClip = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.#frustum = new Frustum().setFromProjectionMatrix(toClip);
+    this.#eye = new Vector3().setFromMatrixPosition(camera.matrixWorld);
+    this.#focal = camera.projectionMatrix.elements[5]!;
+  }
+
+  ofMesh(mesh: Mesh, { extension }: ProgressivePrimitive): number {
+    return this.#errorOf(mesh, extension.error * mesh.matrixWorld.getMaxScaleOnAxis());
+  }
+
+  /** As if the image went once over its mesh. */
+  ofImage(mesh: Mesh, { previewSize }: ProgressiveImage): number {
+    return this.#errorOf(mesh, boxOf(mesh).getSize(new Vector3()).length() / previewSize);
+  }
+
+  ofGrid({ min, cell, nodes }: LightGridDefinition, toWorld: Matrix4): number {
+    let seen = 0;
+    for (let i = 0; i < PLACES ** 3; i++) {
+      const place = [i, i / PLACES, i / PLACES ** 2].map((step, axis) => {
+        const share = (Math.floor(step) % PLACES) / (PLACES - 1);
+        return min[axis]! + share * (nodes[axis]! - 1) * cell[axis]!;
+      });
+      if (this.#frustum.containsPoint(new Vector3(...place).applyMatrix4(toWorld))) seen++;
     }
-    return [stream, weight];
-  });
-  const mean = raw.reduce((sum, [, weight]) => sum + weight, 0) / Math.max(raw.length, 1);
-  return raw.map(([stream, weight]) => [stream, weight / Math.max(mean, 1e-12)]);
+    return Math.max(OUT_OF_SIGHT, seen / PLACES ** 3);
+  }
+
+  /** An error in metres, in pixels times the object's share of the picture. */
+  #errorOf(mesh: Mesh, metres: number): number {
+    const box = boxOf(mesh);
+    const diagonal = box.getSize(new Vector3()).length();
+    const distance = Math.max(box.distanceToPoint(this.#eye), 0.05 * diagonal, 1e-6);
+    const share = Math.min(1, (this.#focal * diagonal) / distance / 2) ** 2;
+    const pixels = (metres * this.#focal * this.heightInPixels) / 2 / distance;
+    return pixels * share * (this.#frustum.intersectsBox(box) ? 1 : OUT_OF_SIGHT);
+  }
+}
+
+/** The bounds of a mesh in the world. */
+function boxOf(mesh: Mesh): Box3 {
+  if (mesh.geometry.boundingBox === null) mesh.geometry.computeBoundingBox();
+  return new Box3().copy(mesh.geometry.boundingBox!).applyMatrix4(mesh.matrixWorld);
 }
