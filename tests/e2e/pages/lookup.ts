@@ -56,8 +56,8 @@ export function run(fixture: Fixture): Triple[][] {
   const layers = fixture.depth / 7 - 2;
   const nodes: Triple = [fixture.width, fixture.height, layers];
   const cell: Triple = [0.5, 0.25, 0.125];
-  const light = new LightwellLight({ stream: 0, min: [0, 0, 0], cell, nodes, normalOffset: 0.5 });
-  light.setAtlas(new Uint16Array(fixture.halves));
+  const definition = { stream: 0, min: [0, 0, 0] as Triple, cell, nodes, normalOffset: 0.5 };
+  const light = new LightwellLight(definition, new Uint16Array(fixture.halves));
   const holder = new Group().add(light);
   const mesh = new Mesh(new BufferGeometry(), new MeshLambertMaterial());
   mesh.frustumCulled = false;

@@ -2,7 +2,6 @@
 import {
   Box3,
   Data3DTexture,
-  DataUtils,
   HalfFloatType,
   Light,
   LinearFilter,
@@ -37,21 +36,18 @@ export class LightwellLight extends Light {
   readonly #corner: Matrix4;
   readonly #size: Vector3;
 
-  /** A dark grid. Its light comes through LightRefinement or, at once, through `setAtlas`. */
-  constructor(readonly definition: LightGridDefinition) {
+  /** `atlas`: the texels of lightwell/light/atlas.h in their patched form. LightRefinement brings finer ones. */
+  constructor(
+    readonly definition: LightGridDefinition,
+    atlas: Uint16Array<ArrayBuffer>,
+  ) {
     super();
     installLightChunks();
     const { min, cell, nodes } = definition;
     this.priority = definition.priority ?? 0;
     this.#corner = new Matrix4().makeTranslation(...min);
     this.#size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
-    this.texture = atlasTexture(darkAtlas(definition), definition);
-  }
-
-  /** Replaces the whole light in one frame: the texels of lightwell/light/atlas.h in their patched form. */
-  setAtlas(atlas: Uint16Array<ArrayBuffer>): void {
-    this.texture.image.data = markContents(atlas, this.definition);
-    this.texture.needsUpdate = true;
+    this.texture = atlasTexture(atlas, definition);
   }
 
   override updateMatrixWorld(force?: boolean): void {
@@ -69,32 +65,20 @@ export class LightwellLight extends Light {
   }
 }
 
-/** A filtered texture of a grid's texels. */
-export function atlasTexture(atlas: Uint16Array<ArrayBuffer>, { nodes }: LightGridDefinition): Data3DTexture {
-  const texture = new Data3DTexture(atlas, nodes[0], nodes[1], SUB_VOLUMES * (nodes[2] + 2));
+/**
+ * A filtered texture of a grid's texels, with a mark in the second one, which no lookup filters: whether the grid holds the light
+ * of the environment; the shader then leaves out the diffuse part of `scene.environment`. Throws when their number is wrong.
+ */
+export function atlasTexture(atlas: Uint16Array<ArrayBuffer>, definition: LightGridDefinition): Data3DTexture {
+  const { stream, nodes, contains } = definition;
+  const depth = SUB_VOLUMES * (nodes[2] + 2);
+  if (atlas.length !== 4 * nodes[0] * nodes[1] * depth)
+    throw new Error(`the light of stream ${stream} has another size than its grid`);
+  atlas[4] = contains?.includes('environment') === true ? HALF_ONE : 0;
+  const texture = new Data3DTexture(atlas, nodes[0], nodes[1], depth);
   texture.format = RGBAFormat;
   texture.type = HalfFloatType;
   texture.minFilter = texture.magFilter = LinearFilter;
   texture.needsUpdate = true;
   return texture;
-}
-
-/**
- * Writes into the second texel, which no lookup filters, whether the grid holds the light of the environment; the shader then
- * leaves out the diffuse part of `scene.environment`.
- */
-export function markContents(atlas: Uint16Array<ArrayBuffer>, definition: LightGridDefinition): Uint16Array<ArrayBuffer> {
-  atlas[4] = definition.contains?.includes('environment') === true ? HALF_ONE : 0;
-  return atlas;
-}
-
-/** No light anywhere, at full weight; the header texel as lightwell/light/atlas.h describes it. */
-function darkAtlas(definition: LightGridDefinition): Uint16Array<ArrayBuffer> {
-  const { cell, nodes, normalOffset } = definition;
-  const texels = nodes[0] * nodes[1] * SUB_VOLUMES * (nodes[2] + 2);
-  const atlas = new Uint16Array(4 * texels);
-  for (let texel = (texels / SUB_VOLUMES) * (SUB_VOLUMES - 1); texel < texels; texel++) atlas[4 * texel + 3] = HALF_ONE;
-  const longest = Math.max(...cell);
-  [...cell.map((side) => side / longest), normalOffset].forEach((value, i) => (atlas[i] = DataUtils.toHalfFloat(value)));
-  return markContents(atlas, definition);
 }

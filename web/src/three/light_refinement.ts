@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box3, type Data3DTexture, Vector3, type WebGLRenderer } from 'three';
 import type { LightEvent } from '../core/protocol.js';
-import { atlasTexture, type LightwellLight, markContents } from './light.js';
+import { atlasTexture, type LightwellLight } from './light.js';
 import type { Refinement } from './refinement.js';
 import { RowSweep } from './row_sweep.js';
 import type { UploadBudget } from './upload_budget.js';
@@ -19,15 +19,14 @@ export class LightRefinement implements Refinement {
   #hidden: Data3DTexture;
   /** The state that is on its way to the hidden texture. */
   #current: Data3DTexture | null = null;
-  #waiting: Uint16Array<ArrayBuffer> | null = null;
+  #waiting: Data3DTexture | null = null;
   #consumed = 0;
 
-  /** `first` is the state of the first frame. Throws when the GPU's 3D textures cannot be of the grid's size. */
-  constructor(light: LightwellLight, renderer: WebGLRenderer, first: LightEvent) {
+  /** `light` has the state of the first frame. Throws when the GPU's 3D textures cannot be of the grid's size. */
+  constructor(light: LightwellLight, renderer: WebGLRenderer) {
     this.#light = light;
     this.#renderer = renderer;
-    light.setAtlas(this.#atlasOf(first));
-    this.#hidden = atlasTexture(light.texture.image.data as Uint16Array<ArrayBuffer>, light.definition);
+    this.#hidden = atlasTexture(texelsOf(light.texture), light.definition);
     const { width, height, depth } = light.texture.image;
     checkSize(width, height, depth, renderer);
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
@@ -40,8 +39,9 @@ export class LightRefinement implements Refinement {
 
   /** A newer state takes the place of one that has not begun to be handed over. */
   receive(event: LightEvent): void {
-    this.#consumed += this.#waiting?.byteLength ?? 0;
-    this.#waiting = this.#atlasOf(event);
+    const state = atlasTexture(event.atlas, this.#light.definition);
+    if (this.#waiting !== null) this.#consumed += texelsOf(this.#waiting).byteLength;
+    this.#waiting = state;
   }
 
   advance(budget: UploadBudget): boolean {
@@ -72,18 +72,10 @@ export class LightRefinement implements Refinement {
     this.#light.dispose();
   }
 
-  #atlasOf(event: LightEvent): LightEvent['atlas'] {
-    if (event.atlas.length !== (this.#light.texture.image.data as Uint16Array).length)
-      throw new Error(`the light of stream ${event.stream} has another size than its grid`);
-    return event.atlas;
-  }
-
   #begin(): Data3DTexture | null {
-    if (this.#waiting === null) return null;
-    const { definition } = this.#light;
-    const state = atlasTexture(markContents(this.#waiting, definition), definition);
+    const state = this.#waiting;
     this.#waiting = null;
-    this.#sweep.restart();
+    if (state !== null) this.#sweep.restart();
     return state;
   }
 
@@ -93,9 +85,13 @@ export class LightRefinement implements Refinement {
     this.#hidden = this.#light.texture;
     this.#light.texture = shown;
     shown.image.data = state.image.data;
-    this.#consumed += (state.image.data as Uint16Array).byteLength;
+    this.#consumed += texelsOf(state).byteLength;
     this.#current = null;
   }
+}
+
+function texelsOf(texture: Data3DTexture): Uint16Array<ArrayBuffer> {
+  return texture.image.data as Uint16Array<ArrayBuffer>;
 }
 
 function checkSize(width: number, height: number, depth: number, renderer: WebGLRenderer): void {

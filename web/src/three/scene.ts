@@ -101,8 +101,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
     this.bounds = finalBounds(opening);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
-    this.grids = (opening.extensions.LIGHTWELL_light_grids?.grids ?? []).map((grid) => new LightwellLight(grid));
-    this.grids.forEach((grid, i) => this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer, lights[i]!)));
+    const grids = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
+    this.grids = grids.map((grid, i) => new LightwellLight(grid, lights[i]!.atlas));
+    for (const grid of this.grids) this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer));
     this.lamps = this.#createLamps();
     this.add(...this.grids, ...this.lamps);
   }
