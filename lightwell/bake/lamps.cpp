@@ -112,12 +112,14 @@ std::optional<ClientLamp> describe_surface(const TraceScene& scene, const Lumina
   if (!lamp) lamp = as_sphere(shape);
   if (!lamp) return {};
   const Instance& instance = scene.scene().instances[static_cast<size_t>(luminaire.index)];
-  lamp->name = scene.scene().material_of(scene.scene().primitives[static_cast<size_t>(instance.primitive)]).name;
+  const Primitive& primitive = scene.scene().primitives[static_cast<size_t>(instance.primitive)];
+  lamp->name = scene.scene().material_of(primitive).name;
   lamp->center = luminaire.center;
   lamp->two_sided = luminaire.double_sided && lamp->kind == ClientLamp::Kind::rectangle;
   // Of what a double-sided surface sends out, each side has half; nobody sees the inside of a sphere.
   lamp->radiance = luminaire.power / (pi * luminaire.area * (luminaire.double_sided ? 2.0f : 1.0f));
   lamp->node = instance.node;
+  lamp->primitive = primitive.source_primitive;
   return lamp;
 }
 

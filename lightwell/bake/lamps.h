@@ -26,6 +26,7 @@ struct ClientLamp {
   bool two_sided = false;                ///< a rectangle that shines to both sides
   float power = 0;                       ///< W, mean of the channels; what lamps are ranked by
   int node = -1;                         ///< of the scene's document
+  int primitive = -1;                    ///< of that node's mesh, whose surface shines; -1: of no surface
 };
 
 /// Who lights what: the light of the client's lamps is bounced into the grid only; that of the other luminaires, which

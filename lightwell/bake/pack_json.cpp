@@ -53,6 +53,7 @@ Json lamp_json(const ClientLamp& lamp) {
     json["outerConeAngle"] = lamp.outer_cone;
   }
   if (lamp.node >= 0) json["node"] = lamp.node;
+  if (lamp.primitive >= 0) json["primitive"] = lamp.primitive;
   return json;
 }
 

@@ -75,6 +75,8 @@ TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
   for (uint32_t cuts : {1u, 5u}) {
     Scene scene;
     add(scene, rectangle(0.75f, 0.25f, cuts), emitter({{4, 2, 1}}), turned);
+    scene.instances[0].node = 3;
+    scene.primitives[0].source_primitive = 2;
     const LampPlan lamps = plan(scene);
     ASSERT_EQ(lamps.client.size(), 1u);
     const ClientLamp& lamp = lamps.client[0];
@@ -87,6 +89,8 @@ TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
     EXPECT_NEAR(length(lamp.half_v), 0.25f, 1e-4f);
     EXPECT_LT(length(lamp.radiance - Vec3f{{4, 2, 1}}), 1e-4f);
     EXPECT_NEAR(lamp.power, 7.0f / 3 * pi * 0.75f, 1e-3f);
+    EXPECT_EQ(lamp.node, 3);
+    EXPECT_EQ(lamp.primitive, 2);
     EXPECT_EQ(lamps.contained, std::vector<uint8_t>{0});
   }
 }

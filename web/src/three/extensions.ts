@@ -63,6 +63,8 @@ export interface LampDefinition {
   range?: number;
   /** The glTF node that it comes from. */
   node?: number;
+  /** The primitive of that node's mesh whose surface shines. */
+  primitive?: number;
 }
 
 /** The extensions that stand at the root of a pack's JSON. */

@@ -25,8 +25,8 @@ export interface Opening {
   extensions: PackExtensions;
   primitives: Map<number, ProgressivePrimitive>;
   images: Map<number, ProgressiveImage>;
-  /** The objects of a glTF node. */
-  objectsOf(node: number): Object3D[];
+  /** The meshes that show a primitive of a glTF node's own mesh. */
+  meshesOf(node: number, primitive: number): Mesh[];
 }
 
 /** Reads an opening. Its punctual lights are left out where LIGHTWELL_lamps lists them. */
@@ -43,7 +43,7 @@ export async function readOpening(glb: ArrayBuffer, manager: LoadingManager): Pr
     extensions: extensionsOf(gltf.parser),
     primitives: progressivePrimitives(gltf),
     images: progressiveImages(gltf),
-    objectsOf: (node) => associated(gltf, (at) => at.nodes === node),
+    meshesOf: (node, primitive) => meshesOf(gltf, node, primitive),
   };
 }
 
@@ -51,11 +51,16 @@ function extensionsOf(parser: GLTFParser): PackExtensions {
   return (parser.json as { extensions?: PackExtensions }).extensions ?? {};
 }
 
-function associated(gltf: GLTF, wanted: (at: { nodes?: number }) => boolean): Object3D[] {
-  const found: Object3D[] = [];
-  gltf.scene.traverse((object) => {
-    if (wanted(gltf.parser.associations.get(object) ?? {})) found.push(object);
-  });
+/** A mesh belongs to the nearest node above it, or to the one that it is itself. */
+function meshesOf(gltf: GLTF, node: number, primitive: number): Mesh[] {
+  const found: Mesh[] = [];
+  const visit = (object: Object3D, above: number | undefined) => {
+    const at = gltf.parser.associations.get(object) as { nodes?: number; primitives?: number } | undefined;
+    const owner = at?.nodes ?? above;
+    if (object instanceof Mesh && owner === node && at?.primitives === primitive) found.push(object);
+    for (const child of object.children) visit(child, owner);
+  };
+  visit(gltf.scene, undefined);
   return found;
 }
 

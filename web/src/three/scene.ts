@@ -281,9 +281,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   #createLamps(): Lamp[] {
     const definitions = this.opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
-    for (const { node } of definitions)
-      if (node !== undefined)
-        for (const object of this.opening.objectsOf(node)) object.traverse((part) => (part.castShadow = false));
+    // A lamp stands inside the surface that it stands for.
+    for (const { node, primitive } of definitions)
+      if (node !== undefined && primitive !== undefined)
+        for (const mesh of this.opening.meshesOf(node, primitive)) mesh.castShadow = false;
     const lamps = createLamps(definitions, this.bounds, mostMaps(this.opening.gltf.scene));
     for (const lamp of lamps)
       if (lamp instanceof SpotLight || lamp instanceof DirectionalLight) this.add(lamp.target);
