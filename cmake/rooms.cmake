@@ -3,7 +3,7 @@
 # lightwell_room(NAME [DEPENDS rooms...] [LIBRARIES targets...] [BAKER_ONLY files...] [PROGRAM])
 #
 # A room is the folder lightwell/NAME, the target lightwell_NAME and the includes "lightwell/NAME/...".
-# DEPENDS are the arrows of docs/architecture.md; tests/arrows.cmake reads them from here.
+# DEPENDS are the arrows of docs/architecture.md; tests/arrows.sh reads them from here.
 # BAKER_ONLY names files that the client's WebAssembly build leaves out (encoders, the simplifier).
 set_property(GLOBAL PROPERTY lightwell_rooms "")
 

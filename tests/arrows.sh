@@ -14,6 +14,11 @@ while read -r room allowed; do
   done < <(grep -HoE '#include "lightwell/[a-z]+/' "$source/lightwell/$room"/*.{h,cpp} 2>/dev/null |
            sed -E 's/#include "lightwell\/([a-z]+)\//\1/' || true)
 done < "$table"
+# Only the one spelling is looked at above, so no other is allowed.
+if grep -HnE '#include ("\.\.?/|<lightwell/)' -r "$source/lightwell" --include='*.h' --include='*.cpp'; then
+  echo 'headers of rooms are included as "lightwell/ROOM/FILE"'
+  wrong=1
+fi
 for folder in "$source"/lightwell/*/; do
   name=$(basename "$folder")
   grep -qE "^$name( |$)" "$table" || { echo "lightwell/$name is not in the table of rooms"; wrong=1; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lightwell/gltf/extensions.h"
+#include "lightwell/scene/import_gltf_material.h"
 #include "lightwell/texture/image_file.h"
 
 namespace lightwell {
@@ -28,16 +29,16 @@ std::vector<bool> color_images(const Scene& scene) {
   return color;
 }
 
-// An extension may name a texture's image in another format; previews are PNG or JPEG, so `source` names them all.
+// An extension may name a texture's image in another format; previews are PNG or JPEG, so `source` names the one that
+// was read.
 void use_plain_sources(Document& document) {
   for (Json& texture : document.json["textures"]) {
-    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"}) {
-      const int source = index_of(extension(texture, name), "source");
-      if (source < 0) continue;
-      texture["source"] = source;
+    const int source = image_of(texture);
+    if (source >= 0) texture["source"] = source;
+    if (!texture.contains("extensions")) continue;
+    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"})
       texture["extensions"].erase(name);
-      if (texture["extensions"].empty()) texture.erase("extensions");
-    }
+    if (texture["extensions"].empty()) texture.erase("extensions");
   }
   for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"})
     forget_extension(document.json, name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/pack_scene.h"
 
+#include <set>
+
 #include "lightwell/bake/pack_json.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
@@ -13,23 +15,47 @@ Json& primitive_json(Json& json, const Primitive& primitive) {
              [static_cast<size_t>(primitive.source_primitive)];
 }
 
-// Gives a primitive's JSON the arrays of `mesh`; material, extras and extensions stay.
-void replace_arrays(Document& document, const Primitive& primitive, const Mesh& mesh) {
+// Gives a primitive's JSON the arrays of `mesh`; material, extras and extensions stay. Collects the names of attributes
+// that meshes here do not have.
+void replace_arrays(Document& document, const Primitive& primitive, const Mesh& mesh, std::set<std::string>& lost) {
   const Json arrays = DocumentBuilder(document).primitive(mesh);
   Json& json = primitive_json(document.json, primitive);
+  for (const auto& attribute : json["attributes"].items())
+    if (!arrays["attributes"].contains(attribute.key())) lost.insert(attribute.key().substr(0, 40));
   json.erase("mode");
   json["attributes"] = arrays["attributes"];
   json["indices"] = arrays["indices"];
 }
 
 // The glTF of the opening: every mesh at its coarsest level in arrays of its own.
-void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed, Document& document) {
+void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed, Document& document, Report& report) {
   std::vector<const Mesh*> shown(scene.primitives.size());
   for (size_t i = 0; i < shown.size(); i++) shown[i] = &scene.primitives[i].mesh;
   for (const StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = &mesh.encoded.base;
+  std::set<std::string> lost;
   for (size_t i = 0; i < shown.size(); i++)
     if (!scene.primitives[i].deforming && !shown[i]->faces.empty())
-      replace_arrays(document, scene.primitives[i], *shown[i]);
+      replace_arrays(document, scene.primitives[i], *shown[i], lost);
+  std::string names;
+  for (const std::string& name : lost)
+    if (names.size() < 400) names += (names.empty() ? "" : ", ") + name;
+  if (!lost.empty()) report.warn("vertex attributes left out, not supported: " + names);
+}
+
+// Materials read only the texture coordinates that meshes here have; the first stand for others (as the import says).
+void use_known_texcoords(Json& json) {
+  constexpr int sets = 2;
+  if (json.is_object() && index_of(json, "texCoord") >= sets) json.erase("texCoord");
+  for (Json& part : json)
+    if (part.is_structured()) use_known_texcoords(part);
+}
+
+// A scene without a name gets the one that its file has.
+void name_scene(Json& json, const std::string& name) {
+  const auto shown = static_cast<size_t>(std::max(0, index_of(json, "scene")));
+  if (shown >= member(json, "scenes").size()) return;
+  Json& scene = json["scenes"][shown];
+  if (text(scene, "name").empty()) scene["name"] = name;
 }
 
 // Where an accessor's first element lies in the BIN chunk.
@@ -122,7 +148,9 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
   Document document = scene.document;
-  shrink_meshes(scene, content.meshes, document);
+  name_scene(document.json, scene.name);
+  shrink_meshes(scene, content.meshes, document, report);
+  if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
   content.images = shrink_images(scene, document);
   add_extensions(document, scene, light, content);
   drop_unused(document);

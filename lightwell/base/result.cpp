@@ -21,7 +21,9 @@ Error in_file(Error error, const std::string& file) {
 }
 
 void Report::warn(std::string text) {
-  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(std::move(text));
+  constexpr size_t most_warnings = 200;
+  if (warnings.size() > most_warnings || std::find(warnings.begin(), warnings.end(), text) != warnings.end()) return;
+  warnings.push_back(warnings.size() < most_warnings ? std::move(text) : "further warnings are left out");
 }
 
 }  // namespace lightwell

@@ -36,7 +36,7 @@ Error in_file(Error error, const std::string& file);
 struct Report {
   std::vector<std::string> warnings;
 
-  /// Adds a warning once; the same text again is dropped.
+  /// Adds a warning once; the same text again is dropped, and so are all beyond the 200 that anybody would read.
   void warn(std::string text);
 };
 

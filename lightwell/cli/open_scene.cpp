@@ -22,11 +22,18 @@ Result<Scene> scene_of_pack(const std::string& path, bool has_environment, const
   return scene;
 }
 
+// The object of that name; one takes the place of anything else that a file may have there.
+Json& object_in(Json& json, const char* key) {
+  Json& value = json[key];
+  if (!value.is_object()) value = Json::object();
+  return value;
+}
+
 // Lets a constant sky survive in a pack.
 void note_sky(Scene& scene, const Vec3f& radiance) {
   Json& json = scene.document.json;
   const auto index = static_cast<size_t>(std::max(0, index_of(json, "scene")));
-  json["scenes"][index]["extras"]["lightwell"]["skyRadiance"] = radiance.e;
+  object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
 }
 
 }  // namespace

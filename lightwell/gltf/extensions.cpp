@@ -42,6 +42,21 @@ constexpr std::array known = std::to_array<std::string_view>({
     "MSFT_lod",
 });
 
+/// Takes names out of the lists of extensions; a list that becomes empty goes too.
+template <typename Unwanted>
+void forget(Json& json, const Unwanted& unwanted) {
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    if (!member(json, list).is_array()) continue;
+    Json kept = Json::array();
+    for (Json& entry : json[list])
+      if (!unwanted(entry)) kept.push_back(std::move(entry));
+    if (kept.empty())
+      json.erase(list);
+    else
+      json[list] = std::move(kept);
+  }
+}
+
 bool is_known(std::string_view name) {
   return std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("LIGHTWELL_");
 }
@@ -82,9 +97,9 @@ void drop_unknown_extensions(Json& json, Report& report) {
   drop_unknown(json, dropped);
   for (const Json& name : member(json, "extensionsUsed"))
     if (name.is_string() && !is_known(name.get<std::string>())) dropped.insert(name.get<std::string>());
+  forget(json, [&](const Json& name) { return name.is_string() && dropped.contains(name.get<std::string>()); });
   std::string names;
   for (const std::string& name : dropped) {
-    forget_extension(json, name);
     if (names.size() < 400) names += (names.empty() ? "" : ", ") + name.substr(0, 80);
   }
   if (!dropped.empty()) report.warn("extensions left out, not supported: " + names);
@@ -96,16 +111,7 @@ bool uses_extension(const Json& json, std::string_view name) {
 }
 
 void forget_extension(Json& json, std::string_view name) {
-  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-    if (!member(json, list).is_array()) continue;
-    Json kept = Json::array();
-    for (const Json& entry : json[list])
-      if (entry != name) kept.push_back(entry);
-    if (kept.empty())
-      json.erase(list);
-    else
-      json[list] = std::move(kept);
-  }
+  forget(json, [&](const Json& entry) { return entry == name; });
 }
 
 }  // namespace lightwell

@@ -94,20 +94,24 @@ Result<void> read_buffers(Document& document, const Chunks& chunks) {
     if (!bytes->empty() && bytes->size() < length)
       return fail(name, "byteLength is " + std::to_string(length) + ", but it holds " + std::to_string(bytes->size()) +
                             " bytes");
-    bytes->resize(std::min(bytes->size(), length));
-    total += static_cast<double>(length);
+    total += static_cast<double>(std::max(bytes->size(), length));
     if (total > max_bytes) return fail("buffers", "hold more than 4 GiB");
+    if (bytes->size() > length) {
+      bytes->resize(length);
+      bytes->shrink_to_fit();  // a file may name a large one again and again for a byte of each
+    }
     json.erase("uri");
     document.buffers.push_back(std::move(*bytes));
   }
   return {};
 }
 
-/// Decodes what is compressed. The allowance is meshopt's largest ratio of 64, and enough for every small file.
+/// Decodes what is compressed, and zeros that are not written out. The allowance is meshopt's largest ratio of 64, and
+/// enough for every small file.
 Result<void> expand(Document& document, size_t file_bytes) {
   double bytes = static_cast<double>(file_bytes);
   for (const auto& buffer : document.buffers) bytes += static_cast<double>(buffer.size());
-  Budget budget(std::min(max_bytes, 0x1p28 + 64 * bytes));
+  Budget budget(std::min(max_bytes, 0x1p26 + 64 * bytes));
   LW_CHECK(expand_meshopt(document, budget));
   LW_CHECK(expand_draco(document, budget));
   return expand_sparse(document, budget);

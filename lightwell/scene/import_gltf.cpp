@@ -15,6 +15,20 @@ namespace {
 constexpr size_t max_instances = size_t(1) << 22;
 constexpr size_t max_faces = size_t(1) << 27;
 
+/// What a document may make of its bytes, so that a small file that uses the same data again and again does not fill
+/// the memory: a corner or an instance takes a byte or more, and some may be shared.
+struct Allowance {
+  size_t corners = 0;
+  size_t instances = 0;
+
+  explicit Allowance(const Document& document) {
+    size_t bytes = 0;
+    for (const auto& buffer : document.buffers) bytes += buffer.size();
+    corners = (size_t(1) << 25) + bytes;
+    instances = std::min(max_instances, (size_t(1) << 16) + bytes);
+  }
+};
+
 /// Counts what deserves one warning for all.
 struct Tally {
   size_t count = 0;
@@ -79,7 +93,7 @@ std::set<int> animated_nodes(const Json& json) {
 /// Builds a Scene from a document: walks the nodes first, then reads the meshes that they show.
 class Importer {
  public:
-  Importer(Document document, std::string name, Report& report) : report_(report) {
+  Importer(Document document, std::string name, Report& report) : report_(report), allowed_(document) {
     scene_.document = std::move(document);
     scene_.name = std::move(name);
   }
@@ -167,6 +181,9 @@ class Importer {
     if ((!translations.empty() && translations.size() != count) || (!rotations.empty() && rotations.size() != count) ||
         (!scales.empty() && scales.size() != count))
       return fail(name + ".EXT_mesh_gpu_instancing", "its attributes have different counts");
+    placed_ += count;
+    if (placed_ > allowed_.instances)
+      return fail(name + ".EXT_mesh_gpu_instancing", "places more than the file can hold");
     std::vector<Transform> transforms;
     for (size_t i = 0; i < count; i++) {
       const Transform local =
@@ -197,7 +214,24 @@ class Importer {
   Result<void> place_meshes() {
     std::map<int, std::vector<const MeshUse*>> by_mesh;
     for (const MeshUse& use : uses_) by_mesh[use.mesh].push_back(&use);
+    for (const auto& [mesh, uses] : by_mesh) LW_CHECK(count_corners(mesh));
     for (const auto& [mesh, uses] : by_mesh) LW_CHECK(place_mesh(mesh, uses));
+    return {};
+  }
+
+  /// Fails before anything is read when there is more than the file can hold.
+  Result<void> count_corners(int mesh) {
+    const Json& json = scene_.document.json;
+    for (const Json& primitive : member(json["meshes"][static_cast<size_t>(mesh)], "primitives")) {
+      int accessor = index_of(primitive, "indices");
+      if (accessor < 0) accessor = index_of(member(primitive, "attributes"), "POSITION");
+      if (accessor < 0) continue;
+      const Json& corners = element(member(json, "accessors"), static_cast<size_t>(accessor));
+      corners_ += static_cast<size_t>(std::max(0.0, number(corners, "count", 0)));
+      if (corners_ > allowed_.corners)
+        return fail(element_name("meshes", static_cast<size_t>(mesh)),
+                    "the scene has more corners than the file can hold");
+    }
     return {};
   }
 
@@ -244,7 +278,8 @@ class Importer {
   Report& report_;
   std::set<int> moving_;
   std::vector<MeshUse> uses_;
-  size_t faces_ = 0;
+  Allowance allowed_;
+  size_t faces_ = 0, corners_ = 0, placed_ = 0;
   Tally flat_, hidden_, animated_, deforming_, undrawable_;
 };
 

@@ -19,15 +19,6 @@ TextureLookup::Wrap wrap_mode(const Json& sampler, const char* key) {
   }
 }
 
-/// The image of a texture: one of glTF's own formats, or the one of an extension where there is no other.
-int image_of(const Json& texture) {
-  for (const char* name : {"EXT_texture_webp", "", "KHR_texture_basisu", "EXT_texture_avif"}) {
-    const int source = index_of(*name ? extension(texture, name) : texture, "source");
-    if (source >= 0) return source;
-  }
-  return -1;
-}
-
 /// KHR_texture_transform: scaled, turned counter-clockwise where v points up, then moved.
 void apply_transform(const Json& transform, TextureLookup& lookup) {
   const auto offset = numbers<2>(transform, "offset", {{0, 0}});
@@ -145,6 +136,14 @@ Result<Image> decode_image(const Document& document, int index) {
 }
 
 }  // namespace
+
+int image_of(const Json& texture) {
+  for (const char* name : {"EXT_texture_webp", "", "KHR_texture_basisu", "EXT_texture_avif"}) {
+    const int source = index_of(*name ? extension(texture, name) : texture, "source");
+    if (source >= 0) return source;
+  }
+  return -1;
+}
 
 std::vector<Material> read_materials(const Json& document, Report& report) {
   std::vector<Material> materials;

@@ -10,6 +10,10 @@ namespace lightwell {
 /// The materials of a document in its order. Factors outside their range are clamped with a warning.
 std::vector<Material> read_materials(const Json& document, Report& report);
 
+/// The image that a texture of a document is read from: EXT_texture_webp's, glTF's own, or another extension's where
+/// there is none of these; -1 without any.
+int image_of(const Json& texture);
+
 /// The images of a document in its order, decoded. One that cannot be read is a white pixel and warned of.
 std::vector<Image> read_images(const Document& document, Report& report);
 

@@ -35,6 +35,25 @@ Vec3f clamped(const float (&rgb)[3], float most) {
   return {{clamped(rgb[0], most), clamped(rgb[1], most), clamped(rgb[2], most)}};
 }
 
+/// The parts of a material that would be seen and are not read, by their names in the file.
+std::vector<std::string> unread(const tinyobj::material_t& material) {
+  constexpr int glossy = 2;  // illum from here on asks for highlights
+  std::vector<std::string> names;
+  const auto add = [&](bool set, const char* name) {
+    if (set) names.push_back(name);
+  };
+  add(material.illum >= glossy && max_component(clamped(material.specular, 1)) > 0, "Ks");
+  add(material.metallic > 0, "Pm");
+  add(material.roughness > 0, "Pr");
+  add(!material.bump_texname.empty() || !material.displacement_texname.empty(), "bump");
+  add(!material.normal_texname.empty(), "norm");
+  add(!material.alpha_texname.empty(), "map_d");
+  add(!material.specular_texname.empty(), "map_Ks");
+  add(!material.metallic_texname.empty(), "map_Pm");
+  add(!material.roughness_texname.empty(), "map_Pr");
+  return names;
+}
+
 }  // namespace
 
 bool ObjMaterialReader::operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
@@ -65,6 +84,8 @@ Json ObjMaterialReader::texture(SceneBuilder& scene, const std::string& name, si
 
 int ObjMaterialReader::add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,
                               bool has_texcoords) const {
+  for (const std::string& name : unread(material))
+    report_.warn("materials: " + name + " is not supported and left out; surfaces are diffuse");
   Json json = lambertian_json({.name = material.name,
                                .color = clamped(material.diffuse, 1),
                                .emission = clamped(material.emission, 1e9f),

@@ -234,6 +234,20 @@ Result<Mesh> triangulated(Polygons polygons, Report& report) {
   return mesh;
 }
 
+/// Names what a file has and nobody reads, so that a scan without its texture is no riddle.
+void warn_of_unread(const PlyHeader& header, Report& report) {
+  std::string names;
+  for (const PlyElement& element : header.elements) {
+    const bool faces = element.name == "face" || element.name == "tristrips";
+    for (const PlyProperty& property : element.properties) {
+      if (element.name == "vertex" ? role_of(property).has_value() : faces && is_corner_list(property)) continue;
+      if (names.size() < 400)
+        names += (names.empty() ? "" : ", ") + element.name.substr(0, 40) + "." + property.name.substr(0, 40);
+    }
+  }
+  if (!names.empty()) report.warn("properties left out, not supported: " + names);
+}
+
 }  // namespace
 
 bool is_ply(Bytes bytes) {
@@ -243,6 +257,7 @@ bool is_ply(Bytes bytes) {
 
 Result<Mesh> read_ply(Bytes file, Report& report) {
   LW_TRY(header, read_ply_header(file));
+  warn_of_unread(header, report);
   PlyValues values(file.subspan(header.size), header.format);
   Polygons polygons;
   for (const PlyElement& element : header.elements) {

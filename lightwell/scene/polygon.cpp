@@ -48,32 +48,56 @@ bool is_inside(const Point& p, const Point& a, const Point& b, const Point& c) {
   return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 && p != a && p != b && p != c;
 }
 
-/// True when the corner `at` of the polygon of the corners `left` can be cut off.
-bool is_ear(const std::vector<Point>& points, const std::vector<uint32_t>& left, size_t at) {
-  const size_t n = left.size();
-  const Point& a = points[left[(at + n - 1) % n]];
-  const Point& b = points[left[at]];
-  const Point& c = points[left[(at + 1) % n]];
-  if (turn(a, b, c) <= 0) return false;
-  for (const uint32_t other : left) {
-    if (is_inside(points[other], a, b, c)) return false;
+/// What is left of a polygon while its ears are cut off: its corners in a ring.
+class Ring {
+ public:
+  explicit Ring(const std::vector<Point>& points) : points_(points) {
+    const auto n = static_cast<uint32_t>(points.size());
+    for (uint32_t i = 0; i < n; i++) {
+      before_.push_back((i + n - 1) % n);
+      after_.push_back((i + 1) % n);
+    }
+    for (uint32_t i = 0; i < n; i++) ears_.push_back(is_ear(i));
   }
-  return true;
-}
+
+  uint32_t after(uint32_t corner) const { return after_[corner]; }
+  /// True when a corner can be cut off. Cutting one off changes that of its neighbours only.
+  bool ear(uint32_t corner) const { return ears_[corner]; }
+  Face triangle(uint32_t corner) const { return {before_[corner], corner, after_[corner]}; }
+
+  void cut(uint32_t corner) {
+    const uint32_t before = before_[corner], after = after_[corner];
+    after_[before] = after;
+    before_[after] = before;
+    ears_[before] = is_ear(before);
+    ears_[after] = is_ear(after);
+  }
+
+ private:
+  bool is_ear(uint32_t corner) const {
+    const Point &a = points_[before_[corner]], &b = points_[corner], &c = points_[after_[corner]];
+    if (turn(a, b, c) <= 0) return false;
+    for (uint32_t other = after_[corner]; other != corner; other = after_[other])
+      if (is_inside(points_[other], a, b, c)) return false;
+    return true;
+  }
+
+  const std::vector<Point>& points_;
+  std::vector<uint32_t> before_, after_;
+  std::vector<bool> ears_;
+};
 
 /// Clips ears until a triangle is left. A polygon that crosses itself may have none; then any corner is cut off.
 void clip_ears(const std::vector<Point>& points, std::vector<Face>& triangles) {
-  std::vector<uint32_t> left(points.size());
-  for (uint32_t i = 0; i < left.size(); i++) left[i] = i;
-  while (left.size() > 3) {
-    size_t ear = 0;
-    while (ear < left.size() && !is_ear(points, left, ear)) ear++;
-    ear %= left.size();
-    const size_t n = left.size();
-    triangles.push_back({left[(ear + n - 1) % n], left[ear], left[(ear + 1) % n]});
-    left.erase(left.begin() + static_cast<ptrdiff_t>(ear));
+  Ring ring(points);
+  uint32_t corner = 0;
+  for (size_t left = points.size(); left > 3; left--) {
+    for (size_t tried = 0; tried < left && !ring.ear(corner); tried++) corner = ring.after(corner);
+    triangles.push_back(ring.triangle(corner));
+    ring.cut(corner);
+    corner = ring.after(corner);
   }
-  triangles.push_back({left[0], left[1], left[2]});
+  triangles.push_back(ring.triangle(corner));
 }
 
 }  // namespace

@@ -30,8 +30,9 @@ int SceneBuilder::material(Json material) {
 }
 
 int SceneBuilder::texture(const std::string& uri) {
-  const int image = builder_.add("images", {{"uri", uri}});
-  return builder_.add("textures", {{"source", image}});
+  const auto [known, added] = textures_.try_emplace(uri, -1);
+  if (added) known->second = builder_.add("textures", {{"source", builder_.add("images", {{"uri", uri}})}});
+  return known->second;
 }
 
 void SceneBuilder::object(const std::string& name, const std::vector<Part>& parts) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ class SceneBuilder {
   int material(const Lambertian& material) { return this->material(lambertian_json(material)); }
   /// A material as glTF has it; its extensions are added to the document's list.
   int material(Json material);
-  /// An image by its URI, relative to the document's folder, as a texture that repeats.
+  /// An image by its URI, relative to the document's folder, as a texture that repeats; one for all uses of the URI.
   int texture(const std::string& uri);
   /// A node with a mesh of these parts.
   void object(const std::string& name, const std::vector<Part>& parts);
@@ -48,6 +49,7 @@ class SceneBuilder {
 
   Document document_;
   DocumentBuilder builder_{document_};
+  std::map<std::string, int> textures_;  // by URI
 };
 
 }  // namespace lightwell

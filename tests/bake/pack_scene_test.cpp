@@ -34,6 +34,7 @@ struct Packed {
   Scene scene;
   std::vector<uint8_t> file;
   PackStatistics statistics;
+  std::vector<std::string> warnings;
 };
 
 Packed pack(Document document) {
@@ -48,6 +49,7 @@ Packed pack(Document document) {
   auto file = make_pack(packed.scene, light, {}, progress, report, packed.statistics);
   EXPECT_TRUE(file) << file.error().message();
   if (file) packed.file = std::move(*file);
+  packed.warnings = report.warnings;
   return packed;
 }
 
@@ -64,7 +66,7 @@ PackReader reader_of(const std::vector<uint8_t>& file) {
 
 Document room() { return find_builtin_scene("box-small")->make(1); }
 
-using Corner = std::array<int, 8>;  // of a face: position, normal and texcoord codes
+using Corner = std::array<int, 13>;  // of a face: position, normal, texcoord and colour codes
 
 std::vector<std::array<Corner, 3>> faces_of(const QuantizedMesh& mesh) {
   std::vector<std::array<Corner, 3>> faces;
@@ -75,6 +77,11 @@ std::vector<std::array<Corner, 3>> faces_of(const QuantizedMesh& mesh) {
       corners[c] = {mesh.positions[v][0], mesh.positions[v][1], mesh.positions[v][2]};
       if (!mesh.normals.empty())
         std::tie(corners[c][3], corners[c][4]) = std::pair<int, int>(mesh.normals[v].u, mesh.normals[v].v);
+      for (size_t set = 0; set < 2; set++)
+        for (size_t axis = 0; axis < 2 && !mesh.texcoords[set].empty(); axis++)
+          corners[c][5 + 2 * set + axis] = mesh.texcoords[set][v].e[axis];
+      for (size_t channel = 0; channel < 4 && !mesh.colors.empty(); channel++)
+        corners[c][9 + channel] = mesh.colors[v][channel];
     }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     faces.push_back(corners);
@@ -110,6 +117,89 @@ TEST(MakePack, EndsInTheQuantisedInputFaceForFace) {
     EXPECT_EQ(faces_of(*found), faces_of(*wanted));
   }
   EXPECT_EQ(scene.document.json.dump().find("LIGHTWELL"), std::string::npos);
+}
+
+// A bumpy sheet of 20 x 20 quads with texture coordinates and colours.
+Mesh painted_sheet() {
+  Mesh mesh;
+  constexpr uint32_t n = 20;
+  Random random(7, 0);
+  for (uint32_t j = 0; j <= n; j++)
+    for (uint32_t i = 0; i <= n; i++) {
+      const float u = static_cast<float>(i) / n, v = static_cast<float>(j) / n;
+      mesh.positions.push_back({{u, v, 0.1f * random.uniform()}});
+      mesh.texcoords[0].push_back({{u, 1 - v}});
+      mesh.colors.push_back({{u, v, random.uniform(), 1}});
+    }
+  for (uint32_t j = 0; j < n; j++)
+    for (uint32_t i = 0; i < n; i++) {
+      const uint32_t k = j * (n + 1) + i;
+      mesh.faces.push_back({k, k + 1, k + n + 2});
+      mesh.faces.push_back({k, k + n + 2, k + n + 1});
+    }
+  mesh.normals = smooth_normals(mesh);
+  return mesh;
+}
+
+Document sheet_document() {
+  Document document;
+  DocumentBuilder builder(document);
+  Json primitive = builder.primitive(painted_sheet());
+  primitive["material"] = builder.add("materials", Json::object());
+  builder.add("meshes", {{"primitives", Json::array({primitive})}});
+  document.json["nodes"] = {{{"mesh", 0}}};
+  builder.add("scenes", {{"nodes", {0}}});
+  return document;
+}
+
+TEST(MakePack, KeepsTextureCoordinatesAndColours) {
+  const Packed packed = pack(sheet_document());
+  Report report;
+  const PackReader reader = reader_of(packed.file);
+  const auto scene = scene_from_document(unpack_document(reader, {}, report).value(), "again", report).value();
+  EXPECT_EQ(faces_of(*quantize(scene.primitives[0].mesh, {})),
+            faces_of(*quantize(packed.scene.primitives[0].mesh, {})));
+  EXPECT_EQ(pack_json(reader).value()["scenes"][0]["name"], "test");
+}
+
+// Attributes that meshes here do not have are named; a material that reads one of them reads the first instead, as the
+// bake did, so that the pack stays valid.
+TEST(MakePack, NamesTheAttributesItLeavesOut) {
+  Document document = sheet_document();
+  Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_2"] = attributes["TEXCOORD_0"];
+  attributes["_TEMPERATURE"] = attributes["TEXCOORD_0"];
+  const int view = DocumentBuilder(document).buffer_view(write_png(Image{1, 1, 3, {1, 2, 3}}));
+  document.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+  document.json["textures"] = {{{"source", 0}}};
+  document.json["materials"][0]["normalTexture"] = {{"index", 0}, {"texCoord", 2}};
+  const Packed packed = pack(std::move(document));
+  EXPECT_NE(std::find(packed.warnings.begin(), packed.warnings.end(),
+                      "vertex attributes left out, not supported: TEXCOORD_2, _TEMPERATURE"),
+            packed.warnings.end())
+      << testing::PrintToString(packed.warnings);
+  const PackReader reader = reader_of(packed.file);
+  EXPECT_EQ(pack_json(reader).value()["materials"][0]["normalTexture"], Json({{"index", 0}}));
+}
+
+// A texture whose extension names an image that nobody here decodes keeps glTF's own.
+TEST(MakePack, KeepsTheImageThatCanBeRead) {
+  Document document = sheet_document();
+  const int red = DocumentBuilder(document).buffer_view(write_png(Image{1, 1, 3, {255, 0, 0}}));
+  const int unknown = DocumentBuilder(document).buffer_view(as_bytes("\xabKTX 20 and so on"));
+  document.json["images"] = {{{"bufferView", red}, {"mimeType", "image/png"}},
+                             {{"bufferView", unknown}, {"mimeType", "image/ktx2"}}};
+  document.json["textures"] = {{{"source", 0}, {"extensions", {{"KHR_texture_basisu", {{"source", 1}}}}}}};
+  document.json["extensionsUsed"] = {"KHR_texture_basisu"};
+  document.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  const Packed packed = pack(std::move(document));
+  const PackReader reader = reader_of(packed.file);
+  const Json json = pack_json(reader).value();
+  EXPECT_FALSE(json["textures"][0].contains("extensions"));
+  Report report;
+  const auto scene = scene_from_document(unpack_document(reader, {}, report).value(), "", report).value();
+  const int image = scene.materials[0].base_color_texture.image;
+  EXPECT_EQ(scene.images.at(static_cast<size_t>(image)).pixels, (std::vector<uint8_t>{255, 0, 0}));
 }
 
 TEST(MakePack, GivesCoarserLevelsOnDemand) {

@@ -127,6 +127,31 @@ TEST(ImportGltf, GpuInstancesArePlaced) {
             "nodes[0].EXT_mesh_gpu_instancing.ROTATION: is of a type or count that it cannot have");
 }
 
+// A small file that uses the same data again and again must not place or draw more than memory holds.
+TEST(ImportGltf, RefusesMoreThanTheFileCanHold) {
+  Document document = scene_document("[]", Json::array());
+  const int moved = DocumentBuilder(document).accessor(std::vector<Vec3f>(10000), false);
+  for (int i = 0; i < 20; i++) {
+    document.json["nodes"].push_back(Json::parse(R"({"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}})"));
+    document.json["nodes"][i]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", moved}};
+    document.json["scenes"][0]["nodes"].push_back(i);
+  }
+  Report report;
+  const auto placed = scene_from_document(document, "", report);
+  ASSERT_FALSE(placed);
+  EXPECT_EQ(placed.error().message(), "nodes[18].EXT_mesh_gpu_instancing: places more than the file can hold");
+
+  document = scene_document(R"([{"mesh": 0}])", {0});
+  const int many =
+      DocumentBuilder(document).add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 20000000}});
+  Json& primitives = document.json["meshes"][0]["primitives"];
+  primitives = Json::array();
+  for (int i = 0; i < 2; i++) primitives.push_back({{"attributes", {{"POSITION", many}}}});
+  const auto drawn = scene_from_document(document, "", report);
+  ASSERT_FALSE(drawn);
+  EXPECT_EQ(drawn.error().message(), "meshes[0]: the scene has more corners than the file can hold");
+}
+
 TEST(ImportGltf, WhatMovesOrDeformsIsLeftOutOfTheBake) {
   Document document = scene_document(R"([{"children": [1]}, {"mesh": 0}, {"mesh": 0}])", {0, 2});
   DocumentBuilder builder(document);

@@ -93,6 +93,18 @@ TEST_F(ObjTest, ReadsMaterialsOfFilesBelow) {
   EXPECT_EQ(report.warnings.size(), 1u);  // of "nowhere"
 }
 
+// Materials that share an image share its texture, and what of them is not read is named once.
+TEST_F(ObjTest, SharesImagesAndNamesWhatItLeavesOut) {
+  write("wood.png", write_png(Image{1, 1, 3, {10, 20, 30}}));
+  write("all.mtl", as_bytes("newmtl a\nmap_Kd wood.png\nmap_Bump wood.png\nnewmtl b\nmap_Kd wood.png\nPm 0.5\n"));
+  const Scene scene =
+      read_well("mtllib all.mtl\nvt 0 0\n" + square + "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 3/1 4/1\n");
+  EXPECT_EQ(scene.images.size(), 1u);
+  EXPECT_EQ(report.warnings,
+            (std::vector<std::string>{"materials: bump is not supported and left out; surfaces are diffuse",
+                                      "materials: Pm is not supported and left out; surfaces are diffuse"}));
+}
+
 TEST_F(ObjTest, ReadsNothingOutsideItsFolder) {
   write("outside.mtl", as_bytes("newmtl secret\nKd 1 0 0\n"));
   folder_ /= "below";

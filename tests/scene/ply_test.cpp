@@ -155,6 +155,17 @@ TEST(Ply, CutsPolygonsAndWarnsOfFacesWithoutArea) {
   EXPECT_EQ(report.warnings.size(), 1u);
 }
 
+TEST(Ply, NamesWhatItLeavesOut) {
+  Report report;
+  ASSERT_TRUE(read_ply(bytes_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                "property float z\nproperty float confidence\nelement face 1\n"
+                                "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                                "end_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2 0\n"),
+                       report));
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"properties left out, not supported: vertex.confidence, face.texcoord"});
+}
+
 TEST(Ply, ReadsStrips) {
   const auto mesh = read(five_points + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
                          five_positions + "9 0 1 4 2 -1 0 3 3 1\n");
