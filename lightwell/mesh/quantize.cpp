@@ -10,7 +10,7 @@ namespace lightwell {
 namespace {
 
 constexpr float largest_coordinate = 1e37f;
-constexpr int default_bits = 14, most_bits = 21;
+constexpr int least_bits = 6, default_bits = 14, most_bits = 21;
 constexpr int texcoord_exponent = -14;  // a quarter of a texel of 4096
 
 // Longest side and largest magnitude of some values.
@@ -41,8 +41,8 @@ Lattice lattice_for(int wanted, const Extent& extent) {
 }
 
 Lattice position_lattice(const Extent& extent, const QuantizeOptions& options) {
-  if (options.position_error > 0) return lattice_for(std::ilogb(2.0 * options.position_error), extent);
-  const double step = extent.side / ((1 << default_bits) - 1);
+  const double standard = extent.side / ((1 << default_bits) - 1), coarsest = extent.side / (1 << least_bits);
+  const double step = options.position_error > 0 ? std::min(2.0 * options.position_error, coarsest) : standard;
   return lattice_for(step > 0 ? std::ilogb(step) : Lattice::min_exponent, extent);
 }
 

@@ -13,7 +13,8 @@ namespace lightwell {
 
 struct QuantizeOptions {
   /// Largest deviation of a coordinate, in the mesh's units. 0: 14 bits for the longest side of the bounding box. At
-  /// most 21 bits are used, and no more than the floats of the input hold.
+  /// least 6 bits are used, so that a mesh smaller than the deviation keeps its form; at most 21, and no more than the
+  /// floats of the input hold.
   float position_error = 0;
 };
 

@@ -96,6 +96,18 @@ TEST(Quantize, KeepsTheErrorAskedFor) {
   }
 }
 
+// A lattice coarser than the mesh would make a point of it.
+TEST(Quantize, AMeshSmallerThanTheErrorKeepsItsForm) {
+  const Mesh mesh = knot(40, 9);
+  Box3f box;
+  for (const Vec3f& p : mesh.positions) box.extend(p);
+  const Mesh result = dequantize(*quantize(mesh, {1000}));
+  for (size_t f = 0; f < mesh.faces.size(); f++)
+    for (int i = 0; i < 3; i++)  // half a step of 6 bits
+      EXPECT_NEAR(mesh.positions[mesh.faces[f][0]][i], result.positions[result.faces[f][0]][i],
+                  max_component(box.size()) / 128);
+}
+
 TEST(Quantize, ResultIsAFixedPoint) {
   for (const auto& [name, mesh] : nasty_meshes()) {
     SCOPED_TRACE(name);
