@@ -92,7 +92,7 @@ void Requests::respond_refused(Open::iterator request, const ResponseHead& head,
   const int status = head.status;
   if (status == 416 && download_.opened())
     return give_up(Reason::replaced, "the file has become shorter: it was replaced or cut");
-  if (status == 416) return give_up(Reason::unreadable, "the file is cut short");
+  if (status == 416) return give_up(Reason::unreadable, "the file is empty or cut short");
   if (!worth_another_try(status)) return give_up(Reason::refused, "the server answers " + std::to_string(status));
   abandon(request, now);
 }

@@ -11,9 +11,10 @@ namespace lightwell {
 Result<OpeningSize> measure_opening(Bytes prefix) {
   OpeningSize size;
   size.needed = glb_header_bytes + chunk_header_bytes;
-  if (prefix.size() < size.needed) return size;
   ByteReader header(prefix);
-  if (header.u32() != glb_magic) return fail("header", "is not that of a binary glTF");
+  const uint32_t magic = header.u32();
+  if (header.ok() && magic != glb_magic) return fail("", "is no pack: it does not begin as a binary glTF does");
+  if (prefix.size() < size.needed) return size;
   if (const uint32_t version = header.u32(); version != 2)
     return fail("header", "is of glTF version " + std::to_string(version));
   size.file_length = header.u32();

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/pack/reader.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <system_error>
 
 #include "lightwell/base/crc32c.h"
 #include "lightwell/pack/content_hash.h"
@@ -28,17 +30,43 @@ Result<std::vector<uint8_t>> read_head(const FetchBytes& fetch, uint64_t file_le
     size = measured;
     if (size.file_length > file_length) return fail("file", "is cut short");
     if (size.complete && head.size() >= size.needed) break;
-    if (size.needed > file_length) return fail("file", "is cut short");
-    LW_TRY(more, fetch(head.size(), size.needed - head.size()));
+    const uint64_t end = std::min(size.needed, file_length);
+    if (end == head.size()) return fail("file", "is cut short");
+    LW_TRY(more, fetch(head.size(), end - head.size()));
     head.insert(head.end(), more.begin(), more.end());
   }
   if (size.file_length != file_length) return fail("file", "is longer than its header says");
   return head;
 }
 
+struct FileBytes {
+  FetchBytes fetch;
+  uint64_t length = 0;
+};
+
+Result<FileBytes> open_bytes(const std::string& path) {
+  std::error_code missing;
+  if (std::filesystem::is_directory(path, missing)) return fail({path, "", "is a folder"});
+  const uint64_t length = std::filesystem::file_size(path, missing);
+  if (missing) return fail({path, "", missing.message()});
+  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
+  if (!*file) return fail({path, "", std::generic_category().message(errno)});
+  const FetchBytes fetch = [file](uint64_t first, uint64_t count) -> Result<std::vector<uint8_t>> {
+    std::vector<uint8_t> bytes(count);
+    file->clear();
+    file->seekg(static_cast<std::streamoff>(first));
+    file->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
+    if (!*file)
+      return fail("bytes " + std::to_string(first) + " to " + std::to_string(first + count), "cannot be read");
+    return bytes;
+  };
+  return FileBytes{fetch, length};
+}
+
 }  // namespace
 
 Result<PackReader> PackReader::open(FetchBytes fetch, uint64_t file_length) {
+  if (file_length == 0) return fail("", "is empty");
   OpeningSize size;
   LW_TRY(head, read_head(fetch, file_length, size));
   const Bytes opening = Bytes(head).first(size.opening_length);
@@ -64,22 +92,25 @@ Result<PackReader> PackReader::open(FetchBytes fetch, uint64_t file_length) {
 }
 
 Result<PackReader> PackReader::open_file(const std::string& path) {
-  std::error_code missing;
-  const uint64_t length = std::filesystem::file_size(path, missing);
-  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
-  if (missing || !*file) return fail(Error{path, "", "cannot be read"});
-  const FetchBytes fetch = [file](uint64_t first, uint64_t count) -> Result<std::vector<uint8_t>> {
-    std::vector<uint8_t> bytes(count);
-    file->clear();
-    file->seekg(static_cast<std::streamoff>(first));
-    file->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-    if (!*file)
-      return fail("bytes " + std::to_string(first) + " to " + std::to_string(first + count), "cannot be read");
-    return bytes;
-  };
-  auto reader = open(fetch, length);
+  LW_TRY(file, open_bytes(path));
+  auto reader = open(std::move(file.fetch), file.length);
   if (!reader) return fail(in_file(reader.error(), path));
   return reader;
+}
+
+bool is_pack_file(const std::string& path) {
+  const auto file = open_bytes(path);
+  std::vector<uint8_t> head;
+  for (uint64_t known = 0; file;) {
+    const auto size = measure_opening(head);
+    if (!size || size->opening_length > 0) return size.has_value();
+    const auto more =
+        size->needed <= file->length ? file->fetch(known, size->needed - known) : fail("", "is cut short");
+    if (!more) return false;
+    head.insert(head.end(), more->begin(), more->end());
+    known = head.size();
+  }
+  return false;
 }
 
 Result<std::vector<uint8_t>> PackReader::block(size_t stream, uint32_t index) const {

@@ -40,4 +40,8 @@ class PackReader {
   std::vector<BlockTable> tables_;
 };
 
+/// Whether a file begins as a pack does: its chunks are JSON, BIN and LWST. What is in them may be damaged. False also
+/// when the file cannot be read.
+bool is_pack_file(const std::string& path);
+
 }  // namespace lightwell

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "lightwell/pack/reader.h"
+
 namespace lightwell {
 namespace fs = std::filesystem;
 namespace {
@@ -108,6 +110,7 @@ Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path
     const bool twice =
         std::ranges::any_of(catalog.files_, [&](const fs::path& other) { return other.filename() == path.filename(); });
     if (twice) return fail(Error{path.string(), "", "another pack has the same name"});
+    LW_CHECK(PackReader::open_file(path.string()));
     catalog.files_.push_back(path);
   }
   std::error_code missing;
@@ -124,7 +127,8 @@ std::vector<Catalog::Pack> Catalog::packs() const {
     std::error_code gone;
     for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end; entry.increment(gone)) {
       const std::string name = entry->path().filename().string();
-      if (is_pack_name(name) && is_file(entry->path())) found.emplace(name, entry->path());
+      if (is_pack_name(name) && is_file(entry->path()) && is_pack_file(entry->path().string()))
+        found.emplace(name, entry->path());
     }
   }
   std::vector<Pack> packs;

@@ -15,8 +15,8 @@ namespace lightwell {
 /// pack that is added to one is served at once. Nothing outside of what was named is ever given.
 class Catalog {
  public:
-  /// `packs`: files, or folders whose *.glb are meant; a pack's name is its file name. `page`: the folder of the page,
-  /// or empty. Fails when one does not exist, or two files have the same name.
+  /// `packs`: packs, or folders whose *.glb are meant; a pack's name is its file name. `page`: the folder of the page,
+  /// or empty. Fails when one does not exist, a file is no pack, or two files have the same name.
   static Result<Catalog> open(const std::vector<std::filesystem::path>& packs, const std::filesystem::path& page);
 
   struct Pack {
@@ -24,7 +24,7 @@ class Catalog {
     std::filesystem::path file;
     uint64_t bytes = 0;
   };
-  /// All packs, by name.
+  /// All packs, by name. Of a folder, other *.glb are left out.
   std::vector<Pack> packs() const;
   /// The list as JSON: {"packs": [{"name": ..., "url": "/packs/...", "bytes": ...}, ...]}.
   std::string packs_json() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/server/server.h"
 
+#include "tests/pack/pack_samples.h"
 #include "tests/server/running_server.h"
 
 namespace lightwell {
@@ -8,10 +9,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::string counting_text(size_t length) {
-  std::string text;
-  while (text.size() < length) text += std::to_string(text.size()) + "\n";
-  return text.substr(0, length);
+/// A pack of no streams with a little more than `length` bytes, no two parts of which are alike.
+std::string pack_of(size_t length) {
+  Random random(1, length);
+  const std::vector<uint8_t> pack = make_pack(random_bytes(random, length), {});
+  return {pack.begin(), pack.end()};
 }
 
 class ServerTest : public testing::Test {
@@ -25,11 +27,12 @@ class ServerTest : public testing::Test {
     folder_.write("packs/room one.lw.glb", pack_);
     folder_.write("packs/notes.txt", "notes");
     std::filesystem::create_symlink(folder_.path() / "secret.glb", folder_.path() / "page/link.glb");
-    options_.packs = {folder_.path() / "packs", folder_.write("single.glb", "single")};
+    options_.packs = {folder_.path() / "packs", folder_.write("single.glb", single_)};
     options_.page = folder_.path() / "page";
   }
 
-  const std::string pack_ = counting_text(300000);
+  const std::string pack_ = pack_of(300000), single_ = pack_of(6);
+  const std::string total_ = std::to_string(pack_.size());
   const std::string url_ = "/packs/room%20one.lw.glb";
   TemporaryFolder folder_;
   ServerOptions options_;
@@ -52,11 +55,15 @@ TEST_F(ServerTest, ListsPacks) {
   const RawResponse list = connection.get("/packs.json");
   EXPECT_EQ(list.fields.at("content-type"), "application/json");
   EXPECT_EQ(list.body,
-            "{\"packs\":[{\"name\":\"room one.lw.glb\",\"url\":\"/packs/room%20one.lw.glb\",\"bytes\":300000},"
-            "{\"name\":\"single.glb\",\"url\":\"/packs/single.glb\",\"bytes\":6}]}\n");
-  folder_.write("packs/a.glb", "a");
+            "{\"packs\":[{\"name\":\"room one.lw.glb\",\"url\":\"/packs/room%20one.lw.glb\",\"bytes\":" + total_ +
+                "},"
+                "{\"name\":\"single.glb\",\"url\":\"/packs/single.glb\",\"bytes\":" +
+                std::to_string(single_.size()) + "}]}\n");
+  folder_.write("packs/a.glb", single_);
   EXPECT_NE(connection.get("/packs.json").body.find("a.glb"), std::string::npos);
-  EXPECT_EQ(connection.get("/packs/a.glb").body, "a");
+  EXPECT_EQ(connection.get("/packs/a.glb").body, single_);
+  folder_.write("packs/plain.glb", "glTF, but no pack");
+  EXPECT_EQ(connection.get("/packs.json").body.find("plain.glb"), std::string::npos);
 }
 
 TEST_F(ServerTest, GivesRanges) {
@@ -73,13 +80,14 @@ TEST_F(ServerTest, GivesRanges) {
   const RawResponse part = connection.get(url_, "Range: bytes=1000-1999\r\n");
   EXPECT_EQ(part.status, 206);
   EXPECT_EQ(part.body, pack_.substr(1000, 1000));
-  EXPECT_EQ(part.fields.at("content-range"), "bytes 1000-1999/300000");
-  EXPECT_EQ(connection.get(url_, "Range: bytes=-10\r\n").body, pack_.substr(299990));
-  EXPECT_EQ(connection.get(url_, "Range: bytes=299990-\r\n").body, pack_.substr(299990));
+  EXPECT_EQ(part.fields.at("content-range"), "bytes 1000-1999/" + total_);
+  EXPECT_EQ(connection.get(url_, "Range: bytes=-10\r\n").body, pack_.substr(pack_.size() - 10));
+  EXPECT_EQ(connection.get(url_, "Range: bytes=" + std::to_string(pack_.size() - 10) + "-\r\n").body,
+            pack_.substr(pack_.size() - 10));
   EXPECT_EQ(connection.get(url_, "Range: bytes=0-1,5-6\r\n").status, 200);
-  const RawResponse beyond = connection.get(url_, "Range: bytes=300000-\r\n");
+  const RawResponse beyond = connection.get(url_, "Range: bytes=" + total_ + "-\r\n");
   EXPECT_EQ(beyond.status, 416);
-  EXPECT_EQ(beyond.fields.at("content-range"), "bytes */300000");
+  EXPECT_EQ(beyond.fields.at("content-range"), "bytes */" + total_);
 }
 
 TEST_F(ServerTest, HeadHasNoBody) {
@@ -87,7 +95,7 @@ TEST_F(ServerTest, HeadHasNoBody) {
   RawConnection connection(server.port());
   const RawResponse head = connection.get(url_, "", "HEAD");
   EXPECT_EQ(head.status, 200);
-  EXPECT_EQ(head.fields.at("content-length"), "300000");
+  EXPECT_EQ(head.fields.at("content-length"), total_);
   EXPECT_EQ(connection.get("/healthz").body, "ok\n") << "the next answer follows directly";
 }
 
@@ -149,7 +157,7 @@ TEST_F(ServerTest, KeepsConnectionsAlive) {
   connection.send(
       "GET /healthz HTTP/1.1\r\nHost: x\r\n\r\nGET /packs/single.glb HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
   EXPECT_EQ(connection.receive().body, "ok\n");
-  EXPECT_EQ(connection.receive().body, "single");
+  EXPECT_EQ(connection.receive().body, single_);
   EXPECT_TRUE(connection.ended());
 }
 
@@ -206,7 +214,10 @@ TEST_F(ServerTest, WrongOptionsAreErrors) {
   options.packs.push_back(folder_.path() / "absent.glb");
   EXPECT_FALSE(listens(options));
   options = options_;
-  options.packs.push_back(folder_.write("elsewhere/single.glb", ""));
+  options.packs.push_back(folder_.write("plain.glb", "glTF, but no pack"));
+  EXPECT_FALSE(listens(options));
+  options = options_;
+  options.packs.push_back(folder_.write("elsewhere/single.glb", single_));
   EXPECT_FALSE(listens(options)) << "two packs of one name";
   options = options_;
   options.page = folder_.path() / "absent";
