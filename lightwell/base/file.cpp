@@ -52,6 +52,18 @@ Result<void> write_all(std::FILE* file, const std::function<Result<void>(const s
   return {};
 }
 
+// A regular file is replaced; a device or a pipe is written to.
+Result<bool> is_replaced(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const auto kind = std::filesystem::status(path, unknown).type();
+  if (kind == std::filesystem::file_type::directory) return fail({path.string(), "", "is a folder"});
+  return kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
+}
+
+std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  return path.string() + ".part" + std::to_string(getpid());
+}
+
 }  // namespace
 
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate, size_t limit) {
@@ -84,21 +96,18 @@ Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
 Result<void> write_file(const std::filesystem::path& path,
                         const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
   if (path == "-") return write_all(stdout, fill);
-  // A device or a pipe is written to; only a regular file is replaced.
-  std::error_code unknown;
-  const auto kind = std::filesystem::status(path, unknown).type();
-  if (kind == std::filesystem::file_type::directory) return fail({path.string(), "", "is a folder"});
-  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found) {
+  LW_TRY(replaced, is_replaced(path));
+  if (!replaced) {
     const File device(std::fopen(path.c_str(), "wb"));
-    if (!device) return fail({path.string(), "", reason(errno)});
+    if (!device) return fail({path.string(), "", "cannot be written: " + reason(errno)});
     auto outcome = write_all(device.get(), fill);
     return outcome ? outcome : Result<void>(fail(in_file(outcome.error(), path.string())));
   }
-  const std::filesystem::path temporary = path.string() + ".part" + std::to_string(getpid());
+  const std::filesystem::path temporary = temporary_beside(path);
   Result<void> written;
   {
     const File file(std::fopen(temporary.c_str(), "wb"));
-    if (!file) return fail({path.string(), "", reason(errno)});
+    if (!file) return fail({path.string(), "", "cannot be written: " + reason(errno)});
     written = write_all(file.get(), fill);
   }
   std::error_code code;
@@ -111,6 +120,21 @@ Result<void> write_file(const std::filesystem::path& path,
     std::filesystem::remove(temporary, ignored);
     return fail(in_file(written.error(), path.string()));
   }
+  return {};
+}
+
+Result<void> check_writable(const std::filesystem::path& path) {
+  if (path == "-") return {};
+  LW_TRY(replaced, is_replaced(path));
+  if (!replaced) {
+    if (access(path.c_str(), W_OK) != 0) return fail({path.string(), "", "cannot be written: " + reason(errno)});
+    return {};
+  }
+  const std::filesystem::path temporary = temporary_beside(path);
+  const bool opened = File(std::fopen(temporary.c_str(), "wb")) != nullptr;
+  if (!opened) return fail({path.string(), "", "cannot be written: " + reason(errno)});
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
   return {};
 }
 

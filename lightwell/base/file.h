@@ -22,4 +22,7 @@ Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
 Result<void> write_file(const std::filesystem::path& path,
                         const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill);
 
+/// Fails when write_file would fail as things are now: to be asked before the work that makes the content.
+Result<void> check_writable(const std::filesystem::path& path);
+
 }  // namespace lightwell

@@ -3,94 +3,76 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include "lightwell/base/file.h"
 #include "lightwell/texture/radiance_hdr.h"
 
 namespace lightwell {
+
 namespace {
 
-// A finite number at the start of text; moves text past it.
-bool read_number(const char*& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text, &end);
-  if (end == text || !std::isfinite(value)) return false;
-  text = end;
-  return true;
+constexpr NumberRange unit_range = {1e-9, 1e9};
+
+void add_grid_option(CLI::App& command, int& nodes) {
+  const int standard = nodes;
+  const auto take = [&nodes, standard](const std::string& text) -> Result<void> {
+    const Result<int64_t> chosen = text == "auto" ? standard : parse_whole(text, {2, 256});
+    if (!chosen) return fail(text, "is neither auto nor a whole number from 2 to 256");
+    nodes = static_cast<int>(*chosen);
+    return {};
+  };
+  add_text(command, "--grid", "auto|N", take, "Nodes on the light grid's longest axis, 2 to 256; auto is 32")
+      ->default_str("auto");
+}
+
+void add_environment_option(CLI::App& command, std::string& environment) {
+  const auto take = [&environment](const std::string& text) -> Result<void> {
+    std::error_code unknown;
+    if (!parse_color(text) && !std::filesystem::exists(text, unknown))
+      return fail(text, "is neither R,G,B (three numbers that are not negative, such as 1,1,1) nor the name of a file");
+    environment = text;
+    return {};
+  };
+  add_text(command, "--environment", "R,G,B|FILE", take, "Light from all around: radiance, or a Radiance .hdr file");
 }
 
 }  // namespace
 
-Result<uint64_t> parse_count(const std::string& text) {
-  const char* at = text.c_str();
-  double value = 0;
-  if (!read_number(at, value) || value < 0) return fail(text, "is not a count");
-  switch (*at) {
-    case 'k': value *= 1e3, at++; break;
-    case 'M': value *= 1e6, at++; break;
-    case 'G': value *= 1e9, at++; break;
-    default: break;
-  }
-  if (*at != 0 || value > 1e15 || value != std::floor(value)) return fail(text, "is not a count");
-  return static_cast<uint64_t>(value);
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help) {
+  command.add_option("scene", options.path, help)->required()->type_name("");
+  add_grid_option(command, options.nodes);
+  add_count(command, "--photons", options.photons, "Photons to trace into the grid: 5000, 200k, 8M, 1G")
+      ->default_str("8M");
+  add_environment_option(command, options.environment);
+  add_choice<char>(command, "--up", options.import.up, {{"y", 'y'}, {"z", 'z'}}, "The file's axis that points up");
+  add_number(command, "--unit", options.import.unit, unit_range, "Length of the file's unit in metres")
+      ->default_str("1");
+  add_whole(command, "--seed", options.import.seed, seed_range, "Seed of everything random");
+  add_whole(command, "--threads", options.threads, {0, 1024}, "Threads, 0 for all processors");
 }
 
-CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help) {
-  return command
-      .add_option_function<std::string>(
-          name,
-          [&value, name](const std::string& text) {
-            auto count = parse_count(text);
-            if (!count) throw CLI::ValidationError(name, count.error().message());
-            if (*count == 0) throw CLI::ValidationError(name, "must be at least 1");
-            value = *count;
-          },
-          help)
-      ->type_name("COUNT");
+void add_level_option(CLI::App& command, MeshLevel& level, const std::string& help) {
+  add_number(command, "--level", level.share, {0, 1}, help)->default_str("1");
+}
+
+void add_fill_option(CLI::App& command, Fill& fill, const std::string& help) {
+  add_choice<Fill>(command, "--fill", fill,
+                   {{"push-pull", Fill::push_pull}, {"push-pull-smooth", Fill::push_pull_smooth}, {"none", Fill::none}},
+                   help);
 }
 
 Result<Vec3f> parse_color(const std::string& text) {
   const char* at = text.c_str();
   Vec3f color;
   for (int i = 0; i < 3; i++) {
-    double value = 0;
-    if (!read_number(at, value) || value < 0) return fail(text, "is not R,G,B");
-    color[i] = static_cast<float>(value);
-    if (i < 2 && *at++ != ',') return fail(text, "is not R,G,B");
+    char* end = nullptr;
+    color[i] = std::strtof(at, &end);
+    const char expected = i < 2 ? ',' : '\0';
+    if (end == at || *end != expected || !std::isfinite(color[i]) || color[i] < 0) return fail(text, "is not R,G,B");
+    at = end + 1;
   }
-  if (*at != 0 || !is_finite(color)) return fail(text, "is not R,G,B");
   return color;
-}
-
-Result<Vec<int, 2>> parse_size(const std::string& text) {
-  Vec<int, 2> size;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size[0], &size[1], &rest) != 2) return fail(text, "is not WxH");
-  for (int pixels : size.e)
-    if (pixels < 1 || pixels > 16384) return fail(text, "each side is 1 to 16384 pixels");
-  return size;
-}
-
-void add_import_options(CLI::App& command, ImportOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--up", [&options](const std::string& axis) { options.up = axis[0]; }, "The file's axis that points up")
-      ->check(CLI::IsMember({"y", "z"}))
-      ->default_str("y");
-  command.add_option("--unit", options.unit, "Length of the file's unit in metres")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
-}
-
-void add_environment_option(CLI::App& command, std::string& environment) {
-  command.add_option("--environment", environment, "Light from all around: R,G,B, or a Radiance .hdr file");
-}
-
-void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads, 0 for all processors")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
 }
 
 Result<Environment> read_environment(const std::string& argument) {

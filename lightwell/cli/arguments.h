@@ -3,32 +3,41 @@
 
 #include <string>
 
-#include "lightwell/base/vector.h"
+#include "lightwell/bake/light_bake.h"
+#include "lightwell/bake/unpack.h"
 #include "lightwell/cli/command.h"
+#include "lightwell/cli/option_kinds.h"
 #include "lightwell/scene/scene.h"
 
 namespace lightwell {
 
-/// Reads a whole number that may end in k, M or G ("8M" is 8 000 000), or an exponent ("1e6").
-Result<uint64_t> parse_count(const std::string& text);
+/// What the commands that trace light through a scene are told of it.
+struct SceneOptions {
+  std::string path;         ///< a scene file, a pack, or the name of a built-in scene
+  std::string environment;  ///< "R,G,B", or the name of a Radiance .hdr file; empty: the scene's own
+  ImportOptions import;
+  int nodes = 32;  ///< on the light grid's longest axis
+  uint64_t photons = 8'000'000;
+  int threads = 0;  ///< 0: all processors
 
-/// Adds an option whose value is a count as parse_count reads it.
-CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help);
+  /// How its light grid is baked; `contained` as in LightBakeOptions.
+  LightBakeOptions light(std::vector<uint8_t> contained) const {
+    return {nodes, photons, import.seed, threads, std::move(contained)};
+  }
+};
+
+/// Adds the scene and --grid, --photons, --environment, --up, --unit, --seed and --threads. `help` says what the scene
+/// may be.
+void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
+
+/// --level: the share of a pack's faces. --fill: what stands in for the nodes of its light grid that are not there.
+void add_level_option(CLI::App& command, MeshLevel& level, const std::string& help);
+void add_fill_option(CLI::App& command, Fill& fill, const std::string& help);
 
 /// Reads "R,G,B", three numbers that are not negative.
 Result<Vec3f> parse_color(const std::string& text);
 
-/// Reads "WxH" in pixels, each 1 to 16384.
-Result<Vec<int, 2>> parse_size(const std::string& text);
-
-/// --up, --unit and --seed of the commands that read scenes.
-void add_import_options(CLI::App& command, ImportOptions& options);
-
-/// --environment and --threads of the commands that trace light.
-void add_environment_option(CLI::App& command, std::string& environment);
-void add_threads_option(CLI::App& command, int& threads);
-
-/// --environment: "R,G,B", or the name of a Radiance .hdr file.
+/// The value of --environment: "R,G,B", or the name of a Radiance .hdr file.
 Result<Environment> read_environment(const std::string& argument);
 
 }  // namespace lightwell

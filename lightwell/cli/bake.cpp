@@ -4,7 +4,6 @@
 #include "lightwell/bake/pack_scene.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
-#include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
 
@@ -12,11 +11,8 @@ namespace lightwell {
 namespace {
 
 struct Options {
-  std::string scene;
+  SceneOptions scene;
   std::string output;
-  std::string environment;
-  ImportOptions import;
-  LightBakeOptions light;
   PackOptions pack;
 };
 
@@ -34,7 +30,7 @@ struct Bake {
 };
 
 Result<void> import_scene(const Options& options, Bake& bake) {
-  LW_TRY(scene, open_scene(options.scene, options.import, options.environment, bake.report));
+  LW_TRY(scene, open_scene(options.scene, bake.report));
   bake.scene = std::move(scene);
   LW_TRY(traced, TraceScene::build(bake.scene));
   bake.traced = std::move(traced);
@@ -42,27 +38,26 @@ Result<void> import_scene(const Options& options, Bake& bake) {
 }
 
 Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
-  LightBakeOptions light = options.light;
-  light.seed = options.import.seed;
   bake.light.lamps = plan_lamps(*bake.traced);
-  light.contained = bake.light.lamps.contained;
-  LW_TRY(grid, bake_light(*bake.traced, light, progress, bake.light_statistics));
+  const std::vector<uint8_t>& contained = bake.light.lamps.contained;
+  LW_TRY(grid, bake_light(*bake.traced, options.scene.light(contained), progress, bake.light_statistics));
   bake.grid = std::move(grid);
   bake.light.grid = &bake.grid;
-  bake.light.seed = options.import.seed;
+  bake.light.seed = options.scene.import.seed;
   bake.light.estimated_error = bake.light_statistics.estimated_error;
   const std::vector<Luminaire>& luminaires = bake.traced->lights().luminaires();
   for (size_t i = 0; i < luminaires.size(); i++) {
-    if (!light.contained[i]) continue;
+    if (!contained[i]) continue;
     (luminaires[i].kind == Luminaire::Kind::environment ? bake.light.contains_environment : bake.light.contains_lamps) =
         true;
   }
   LW_TRY(camera, choose_camera(bake.scene, ""));
-  bake.light.exposure = choose_exposure(*bake.traced, camera, bake.grid, light.contained);
+  bake.light.exposure = choose_exposure(*bake.traced, camera, bake.grid, contained);
   return {};
 }
 
 Result<void> run(const Options& options, Progress& progress, Bake& bake) {
+  LW_CHECK(check_writable(options.output));
   Stopwatch watch;
   progress.stage("importing", 0, "");
   LW_CHECK(import_scene(options, bake));
@@ -109,7 +104,7 @@ int bake_scene(const Options& options, const Console& console) {
     outcome = run(options, progress, bake);
   }
   if (!console.json) console.warn(bake.report);
-  if (!outcome) return console.fail(in_file(outcome.error(), options.scene));
+  if (!outcome) return console.fail(in_file(outcome.error(), options.scene.path));
   nlohmann::ordered_json result = figures(bake);
   if (!console.json) result.erase("warnings");
   if (options.output != "-") console.print(result);
@@ -122,21 +117,15 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("bake", "Imports a scene, traces its light, orders its meshes, writes a pack");
-  command->add_option("scene", options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene")->required();
-  command->add_option("-o,--output", options->output, "The pack to write; - is stdout")->required();
-  add_grid_options(*command, options->light);
-  add_environment_option(*command, options->environment);
-  add_import_options(*command, options->import);
-  command
-      ->add_option("--position-error", options->pack.position_error,
-                   "How far a vertex may move, in metres (default: 14 bits for a mesh's longest side)")
-      ->check(CLI::PositiveNumber);
-  add_threads_option(*command, options->light.threads);
+  add_output(*command, options->output, {".glb"}, "The pack to write, FILE.glb; - is stdout")->required();
+  add_scene_options(*command, options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene");
+  add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
+             "How far a vertex may move at most, in metres (default: 14 bits for a mesh's longest side)");
   command->footer(
       "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
       "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");
   command->callback([=, &console, &chosen] {
-    options->pack.threads = options->light.threads;
+    options->pack.threads = options->scene.threads;
     chosen = [=, &console] { return bake_scene(*options, console); };
   });
   return command;

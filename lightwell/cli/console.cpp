@@ -11,10 +11,10 @@
 namespace lightwell {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t interrupted = 0;  // the signal that did
 
 void note_interrupt(int signal) {
-  interrupted = 1;
+  interrupted = signal;
   std::signal(signal, SIG_DFL);  // a second Ctrl-C ends at once
 }
 
@@ -30,15 +30,9 @@ std::string short_number(double value) {
   return text;
 }
 
-/// The name of an entry of the array or object that is called `key`; the outermost one has no name.
-std::string entry_name(const std::string& key, const std::string& name, bool in_array) {
-  if (key.empty()) return name;
-  return in_array ? key + "[" + name + "]" : key + "." + name;
-}
-
 void print_lines(const nlohmann::ordered_json& value, const std::string& key) {
-  if (value.is_structured()) {
-    for (const auto& [name, item] : value.items()) print_lines(item, entry_name(key, name, value.is_array()));
+  if (value.is_object()) {
+    for (const auto& [name, item] : value.items()) print_lines(item, key.empty() ? name : key + "." + name);
     return;
   }
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -48,13 +42,20 @@ void print_lines(const nlohmann::ordered_json& value, const std::string& key) {
 }  // namespace
 
 int Console::fail(const Error& error) const {
+  if (interrupted != 0) {
+    std::fputs("lightwell: cancelled, nothing written\n", stderr);
+    return 128 + interrupted;
+  }
   std::fprintf(stderr, "lightwell: %s\n", error.message().c_str());
   return 1;
 }
 
+void Console::warn(const std::string& warning) const {
+  if (!quiet) std::fprintf(stderr, "lightwell: warning: %s\n", warning.c_str());
+}
+
 void Console::warn(const Report& report) const {
-  if (quiet) return;
-  for (const std::string& warning : report.warnings) std::fprintf(stderr, "lightwell: warning: %s\n", warning.c_str());
+  for (const std::string& warning : report.warnings) warn(warning);
 }
 
 void Console::print(const nlohmann::ordered_json& figures) const {
@@ -120,8 +121,10 @@ void ConsoleProgress::draw(double done, double seconds) {
 void ConsoleProgress::end_stage() {
   const std::lock_guard lock(mutex_);
   if (name_.empty() || !enabled_) return;
+  if (terminal_) std::fputs("\r\033[K", stderr);
+  if (cancelled()) return name_.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  std::fprintf(stderr, "%s%s: %.1f s", terminal_ ? "\r\033[K" : "", name_.c_str(), seconds);
+  std::fprintf(stderr, "%s: %.1f s", name_.c_str(), seconds);
   if (total_ > 0 && seconds > 0)
     std::fprintf(stderr, ", %s %s/s", short_number(total_ / seconds).c_str(), unit_.c_str());
   std::fputc('\n', stderr);

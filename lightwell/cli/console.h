@@ -17,8 +17,10 @@ struct Console {
   bool json = false;   ///< print one JSON object instead of lines
   bool quiet = false;  ///< no progress, no warnings
 
-  /// One line on stderr, "lightwell: FILE: ELEMENT: REASON"; returns the exit status for bad input.
+  /// One line on stderr, "lightwell: FILE: ELEMENT: REASON"; returns the exit status for bad input. When Ctrl-C or
+  /// SIGTERM has ended the work the line says that instead, and the status is the shell's for that signal: 130 or 143.
   int fail(const Error& error) const;
+  void warn(const std::string& warning) const;
   void warn(const Report& report) const;
   /// Prints the figures of a command: as JSON, or as lines "key: value" with nested keys joined by dots.
   void print(const nlohmann::ordered_json& figures) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/base/file.h"
 #include "lightwell/cli/command.h"
+#include "lightwell/cli/option_kinds.h"
 #include "lightwell/render/compare.h"
 #include "lightwell/texture/image_file.h"
 
@@ -14,6 +15,7 @@ struct Options {
 };
 
 Result<Comparison> run(const Options& options) {
+  if (!options.heat_map.empty()) LW_CHECK(check_writable(options.heat_map));
   LW_TRY(picture, read_picture(options.picture));
   LW_TRY(reference, read_picture(options.reference));
   auto comparison = compare(picture, reference, *metric_of(options.metric), Display{.tone = ToneCurve::none});
@@ -28,19 +30,20 @@ Result<Comparison> run(const Options& options) {
 CLI::App* add_diff(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("diff", "Compares two pictures (PNG, EXR or PFM)");
-  command->add_option("picture", options->picture, "A picture")->required();
-  command->add_option("reference", options->reference, "What it should be")->required();
-  command
-      ->add_option("--metric", options->metric, "How they are compared; lab is S08's mean difference in Lab, percent")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"rmse", "relmse", "deltae", "lab", "flip"}));
-  command->add_option("-o,--output", options->heat_map, "A PNG of the differences");
+  command->add_option("picture", options->picture, "A picture")->required()->type_name("");
+  command->add_option("reference", options->reference, "What it should be")->required()->type_name("");
+  add_choice<std::string>(
+      *command, "--metric", options->metric,
+      {{"rmse", "rmse"}, {"relmse", "relmse"}, {"deltae", "deltae"}, {"lab", "lab"}, {"flip", "flip"}},
+      "How they are compared; lab is S08's mean difference in Lab, percent");
+  add_output(*command, options->heat_map, {".png"}, "A PNG of the differences; - is stdout");
   command->footer("Example:\n  lightwell diff page.png reference.png --metric deltae -o where.png");
   command->callback([=, &console, &chosen] {
     chosen = [=, &console] {
       auto comparison = run(*options);
       if (!comparison) return console.fail(comparison.error());
-      console.print({{"mean", comparison->mean}, {"p95", comparison->p95}, {"max", comparison->max}});
+      if (options->heat_map != "-")
+        console.print({{"mean", comparison->mean}, {"p95", comparison->p95}, {"max", comparison->max}});
       return 0;
     };
   });

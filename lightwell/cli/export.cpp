@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/unpack.h"
 #include "lightwell/base/file.h"
-#include "lightwell/cli/command.h"
+#include "lightwell/cli/arguments.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/write_ply.h"
 
@@ -38,6 +38,7 @@ Mesh merge(const Scene& scene) {
 }
 
 Result<Outcome> write(const Options& options, Report& report) {
+  LW_CHECK(check_writable(options.output));
   LW_TRY(pack, PackReader::open_file(options.pack));
   LW_TRY(document, unpack_document(pack, options.level, report));
   LW_TRY(scene, scene_from_document(document, "", report));
@@ -60,13 +61,11 @@ Result<Outcome> write(const Options& options, Report& report) {
 CLI::App* add_export(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("export", "Writes the geometry of a pack at a level as an ordinary file");
-  command->add_option("pack", options->pack, "A pack")->required();
-  command->add_option("-o,--output", options->output, "FILE.glb, FILE.ply, or - for a GLB on stdout")->required();
-  command->add_option("--level", options->level.share, "Share of the final faces, 0 to 1")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--error", options->level.error, "Largest error in a mesh's own units, instead of a share")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("pack", options->pack, "A pack")->required()->type_name("");
+  add_output(*command, options->output, {".glb", ".ply"}, "FILE.glb, FILE.ply, or - for a GLB on stdout")->required();
+  add_level_option(*command, options->level, "Share of the final faces, 0 to 1");
+  add_number(*command, "--error", options->level.error, {0, 1e9},
+             "Largest error in a mesh's own units, instead of a share");
   command->footer("Example:\n  lightwell export room.lw.glb --level 0.1 -o coarse.glb");
   command->callback([=, &console, &chosen] {
     if (command->count("--error") > 0 && command->count("--level") == 0) options->level.share = 0;

@@ -12,12 +12,15 @@ struct Options {
   std::string url;
   std::string output;
   ClientOptions client;
-  double bits_per_second = 0;
+  uint64_t bits_per_second = 0;
   double latency_milliseconds = 0;
+  double timeout = 30;  ///< seconds; 0 is never
 };
 
 Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
   std::unique_ptr<Transport> transport;
+  if (options.url.starts_with("https://"))
+    return fail("", "https is not spoken here; save the file with another program, such as curl, and fetch that");
   if (options.url.starts_with("http://")) {
     LW_TRY(http, http_transport(options.url));
     transport = std::move(http);
@@ -25,12 +28,22 @@ Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
     LW_TRY(bytes, read_file(options.url));
     transport = memory_transport(std::move(bytes));
   }
-  const LineShape shape{options.bits_per_second, options.latency_milliseconds / 1000};
+  const LineShape shape{static_cast<double>(options.bits_per_second), options.latency_milliseconds / 1000};
   if (shape.bits_per_second <= 0 && shape.latency <= 0) return transport;
   return shaped_transport(std::move(transport), shape);
 }
 
-Result<FetchOutcome> run(const Options& options, const Progress& progress) {
+// Ends with the user's patience, and tells of outages.
+FetchGuard guard_of(const Options& options, const Progress& progress, const Console& console) {
+  FetchGuard guard;
+  guard.cancelled = [&] { return progress.cancelled(); };
+  guard.outage = [&](const std::string& reason) { console.warn(options.url + ": " + reason + "; trying again"); };
+  if (options.timeout > 0) guard.patience = options.timeout;
+  return guard;
+}
+
+Result<FetchOutcome> run(const Options& options, const Progress& progress, const Console& console) {
+  if (!options.output.empty()) LW_CHECK(check_writable(options.output));
   LW_TRY(transport, open_transport(options));
   Client client(options.client);
   ReceivedScene scene;
@@ -40,7 +53,7 @@ Result<FetchOutcome> run(const Options& options, const Progress& progress) {
       [&](const Update& update) {
         if (keep) scene.apply(update);
       },
-      [&] { return progress.cancelled(); });
+      guard_of(options, progress, console));
   if (!outcome || !keep) return outcome;
   LW_TRY(glb, scene.glb());
   LW_CHECK(write_file(options.output, glb));
@@ -61,7 +74,7 @@ nlohmann::ordered_json figures(const FetchOutcome& outcome) {
 
 int fetch_pack(const Options& options, const Console& console) {
   const ConsoleProgress progress(console);
-  auto outcome = run(options, progress);
+  auto outcome = run(options, progress, console);
   if (!outcome) return console.fail(in_file(outcome.error(), options.url));
   nlohmann::ordered_json result = figures(*outcome);
   if (!console.json) result.erase("timeline");
@@ -69,38 +82,25 @@ int fetch_pack(const Options& options, const Console& console) {
   return 0;
 }
 
-const std::map<std::string, Strategy> strategies = {
-    {"interleave", Strategy::interleave}, {"geometry", Strategy::geometry}, {"light", Strategy::light}};
-const std::map<std::string, Fill> fills = {
-    {"push-pull", Fill::push_pull}, {"push-pull-smooth", Fill::push_pull_smooth}, {"none", Fill::none}};
-
 }  // namespace
 
 CLI::App* add_fetch(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("fetch", "Streams and decodes a pack without a screen, prints what was there when");
-  command->add_option("url", options->url, "http://… of a pack, or a file")->required();
-  command->add_option("-o,--output", options->output, "Write the scene as it was received: FILE.glb, - for stdout");
-  command->add_option("--strategy", options->client.strategy, "What comes first: interleave, geometry or light")
-      ->transform(CLI::CheckedTransformer(strategies))
-      ->default_str("interleave");
-  command
-      ->add_option("--fill", options->client.fill, "How missing light is filled: push-pull, push-pull-smooth or none")
-      ->transform(CLI::CheckedTransformer(fills))
-      ->default_str("push-pull");
-  command
-      ->add_option_function<std::string>(
-          "--rate",
-          [options](const std::string& text) {
-            auto rate = parse_count(text);
-            if (!rate || *rate == 0) throw CLI::ValidationError("--rate", text + " is not a rate");
-            options->bits_per_second = static_cast<double>(*rate);
-          },
-          "Slow the line down to so many bits a second (10M)")
-      ->type_name("BITS/S");
-  command->add_option("--latency", options->latency_milliseconds, "Delay every answer by so many milliseconds")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("url", options->url, "http://HOST[:PORT]/PATH of a pack, or a file")->required()->type_name("");
+  add_output(*command, options->output, {".glb"}, "Write the scene as it was received: FILE.glb, - for stdout");
+  add_choice<Strategy>(
+      *command, "--strategy", options->client.strategy,
+      {{"interleave", Strategy::interleave}, {"geometry", Strategy::geometry}, {"light", Strategy::light}},
+      "What comes first");
+  add_fill_option(*command, options->client.fill, "How missing light is filled");
+  add_count(*command, "--rate", options->bits_per_second, "Slow the line down to so many bits a second: 500k, 10M");
+  add_number(*command, "--latency", options->latency_milliseconds, {0, 1e6},
+             "Delay every answer by so many milliseconds");
+  add_number(*command, "--timeout", options->timeout, {0, 1e6},
+             "Give up after so many seconds without a byte; 0 is never")
+      ->default_str("30");
   command->footer("Example:\n  lightwell fetch http://127.0.0.1:8080/packs/room.lw.glb --rate 10M --latency 50");
   command->callback([=, &console, &chosen] { chosen = [=, &console] { return fetch_pack(*options, console); }; });
   return command;

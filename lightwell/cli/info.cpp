@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/unpack.h"
 #include "lightwell/cli/command.h"
+#include "lightwell/cli/info_text.h"
 #include "lightwell/mesh/stream.h"
 
 namespace lightwell {
@@ -70,14 +71,18 @@ CLI::App* add_info(CLI::App& program, Console& console, std::function<int()>& ch
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info", "Tells what is in a pack");
-  command->add_option("pack", options->pack, "A pack")->required();
-  command->add_flag("--blocks", options->blocks, "List every block");
+  command->add_option("pack", options->pack, "A pack")->required()->type_name("");
+  command->add_flag("--blocks", options->blocks,
+                    "Every block, too: what it adds (vertices, nodes or bytes), and the error after it");
   command->footer("Example:\n  lightwell info room.lw.glb");
   command->callback([=, &console, &chosen] {
     chosen = [=, &console] {
       auto figures = describe(options->pack, options->blocks);
       if (!figures) return console.fail(in_file(figures.error(), options->pack));
-      console.print(*figures);
+      if (console.json)
+        console.print(*figures);
+      else
+        std::fputs(info_text(*figures).c_str(), stdout);
       return 0;
     };
   });

@@ -3,12 +3,9 @@
 
 #include "lightwell/bake/light_bake.h"
 #include "lightwell/bake/unpack.h"
-#include "lightwell/cli/command.h"
+#include "lightwell/cli/arguments.h"
 
 namespace lightwell {
-
-/// --grid and --photons of the commands that bake a light grid; nodes outside 2 to 256 are bad usage.
-void add_grid_options(CLI::App& command, LightBakeOptions& options);
 
 /// The luminaires whose direct light the grid of `path` holds, one flag each: of a pack as it was baked; of a scene,
 /// where figures are compared with other programs', the environment only, if that.
@@ -19,8 +16,9 @@ Result<std::vector<uint8_t>> contained_in_grid(const std::string& path, const Tr
 /// missing.
 Result<void> check_environment(const std::string& path, const Scene& scene);
 
-/// The light grid that `path` stands for: a pack's own at a level, or one baked from the scene with these options.
-Result<LightGrid> light_of(const std::string& path, const TraceScene& scene, const LightBakeOptions& options,
+/// The light grid that a scene stands for: a pack's own at a level, or one baked as its options say, with the direct
+/// light of the `contained` luminaires.
+Result<LightGrid> light_of(const SceneOptions& options, const TraceScene& scene, const std::vector<uint8_t>& contained,
                            Progress& progress, const LightLevel& level = {});
 
 }  // namespace lightwell

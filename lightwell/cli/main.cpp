@@ -1,19 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/cli/command.h"
 
+namespace {
+
+// What is wrong with a command line, in words.
+std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+  const auto chosen = program.get_subcommands();
+  const std::vector<std::string> rest = program.remaining(true);
+  const std::string reason = error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
+    return reason.substr(0, reason.find(':')) + ": takes one value";
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || rest.empty()) return reason;
+  std::string text;
+  for (const std::string& argument : rest) text += (text.empty() ? "" : " ") + argument;
+  if (rest.front().starts_with("-")) return text + ": no such option";
+  return chosen.empty() ? rest.front() + ": no such command" : text + ": more than was expected";
+}
+
+// One line, and where to read on.
+int refuse(const CLI::App& program, const std::string& reason) {
+  const auto chosen = program.get_subcommands();
+  const std::string command = chosen.empty() ? "" : chosen.front()->get_name();
+  std::fprintf(stderr, "lightwell: %s%s; see `lightwell %s--help`\n", command.empty() ? "" : (command + ": ").c_str(),
+               reason.c_str(), command.empty() ? "" : (command + " ").c_str());
+  return 2;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace lightwell;
 
   CLI::App program("Bakes the indirect light of 3D scenes and streams light and geometry to browsers.", "lightwell");
   program.set_version_flag("--version", LIGHTWELL_VERSION);
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);
   program.get_formatter()->column_width(36);
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program.get_formatter()->label("Positionals", "Arguments");
+  program.get_formatter()->label("REQUIRED", "(needed)");
+  program.footer("`lightwell COMMAND --help` tells more of one, with examples.");
 
   Console console;
   std::function<int()> chosen;
   for (const AddCommand add : {add_scenes, add_bake, add_info, add_verify, add_serve, add_fetch, add_render, add_probe,
                                add_export, add_diff}) {
     CLI::App* command = add(program, console, chosen);
+    command->group("Commands");
     command->add_flag("--json", console.json, "Print one JSON object");
     command->add_flag("--quiet", console.quiet, "No progress and no warnings");
   }
@@ -21,8 +53,10 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int status = program.exit(error);
-    return status == 0 ? 0 : 2;
+    return error.get_exit_code() == 0 ? program.exit(error) : refuse(program, complaint(program, error));
   }
-  return chosen();
+  if (!chosen) return refuse(program, "a command is missing");
+  const int status = chosen();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return console.fail({"stdout", "", "cannot be written"});
+  return status;
 }

@@ -4,9 +4,8 @@
 #include <filesystem>
 
 #include "lightwell/bake/contained.h"
-#include "lightwell/bake/unpack.h"
-#include "lightwell/cli/arguments.h"
 #include "lightwell/render/camera.h"
+#include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
 
 namespace lightwell {
@@ -36,17 +35,24 @@ void note_sky(Scene& scene, const Vec3f& radiance) {
   object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
 }
 
+// Packs and built-in scenes have an up and a unit.
+Result<void> refuse_conventions(const std::string& path, const ImportOptions& asked) {
+  const ImportOptions own;
+  if (asked.up == own.up && asked.unit == own.unit) return {};
+  return fail({path, "", "is in metres with y up; --up and --unit are for files of other programs"});
+}
+
 }  // namespace
 
-bool is_pack(const std::string& path) { return PackReader::open_file(path).has_value(); }
-
-Result<Scene> open_scene(const std::string& path, const ImportOptions& options, const std::string& environment,
-                         Report& report, const MeshLevel& level) {
-  auto scene =
-      is_pack(path) ? scene_of_pack(path, !environment.empty(), level, report) : load_scene(path, options, report);
+Result<Scene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level) {
+  const std::string& path = options.path;
+  const bool pack = is_pack_file(path);
+  if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
+  auto scene = pack ? scene_of_pack(path, !options.environment.empty(), level, report)
+                    : load_scene(path, options.import, report);
   if (!scene) return fail(in_file(scene.error(), path));
-  if (!environment.empty()) {
-    LW_TRY(surroundings, read_environment(environment));
+  if (!options.environment.empty()) {
+    LW_TRY(surroundings, read_environment(options.environment));
     if (!surroundings.map) note_sky(*scene, surroundings.radiance);
     scene->environment = std::move(surroundings);
   }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/cli/arguments.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/cli/probe_points.h"
@@ -8,32 +7,27 @@ namespace lightwell {
 namespace {
 
 struct Options {
-  std::string scene;
+  SceneOptions scene;
   std::string points;
-  std::string environment;
-  ImportOptions import;
-  LightBakeOptions light;
   ProbeOptions probe;
   bool without_environment = false;
 };
 
 Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ProbePoint>& points, Progress& progress,
                                     Report& report) {
-  LW_TRY(scene, open_scene(options.scene, options.import, options.environment, report));
+  LW_TRY(scene, open_scene(options.scene, report));
   LW_TRY(traced, TraceScene::build(scene));
   ProbeOptions probe_options = options.probe;
   probe_options.environment = !options.without_environment;
-  probe_options.seed = options.import.seed;
+  probe_options.seed = options.scene.import.seed;
+  probe_options.threads = options.scene.threads;
   LightGrid grid;
   std::vector<uint8_t> contained;
   if (probe_options.integrator == Integrator::ivg) {
-    LW_CHECK(check_environment(options.scene, scene));
-    LW_TRY(held, contained_in_grid(options.scene, *traced, !options.without_environment));
+    LW_CHECK(check_environment(options.scene.path, scene));
+    LW_TRY(held, contained_in_grid(options.scene.path, *traced, !options.without_environment));
     contained = std::move(held);
-    LightBakeOptions light = options.light;
-    light.seed = options.import.seed;
-    light.contained = contained;
-    LW_TRY(found, light_of(options.scene, *traced, light, progress));
+    LW_TRY(found, light_of(options.scene, *traced, contained, progress));
     grid = std::move(found);
     probe_options.grid = &grid;
     probe_options.contained = contained;
@@ -57,7 +51,7 @@ int probe_scene(const Options& options, const Console& console) {
     return run(options, *points, progress, report);
   }();
   console.warn(report);
-  if (!values) return console.fail(in_file(values.error(), options.scene));
+  if (!values) return console.fail(in_file(values.error(), options.scene.path));
   if (console.json)
     console.print(figures(*values));
   else
@@ -65,42 +59,28 @@ int probe_scene(const Options& options, const Console& console) {
   return 0;
 }
 
-const std::map<std::string, Integrator> integrators = {{"path", Integrator::path}, {"ivg", Integrator::ivg}};
-const std::map<std::string, LightPart> quantities = {
-    {"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}};
-
 }  // namespace
 
 CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("probe", "Irradiance (W/m2) at points with normals, as CSV");
-  command->add_option("scene", options->scene, "A scene file, a pack, or a built-in scene")->required();
-  command->add_option("--points", options->points, "CSV with the columns x,y,z,nx,ny,nz")->required();
-  command->add_option("--integrator", options->probe.integrator, "path: path tracing; ivg: the light grid")
-      ->transform(CLI::CheckedTransformer(integrators))
-      ->default_str("path");
-  command->add_option("--quantity", options->probe.quantity, "Which light is measured")
-      ->transform(CLI::CheckedTransformer(quantities))
-      ->default_str("indirect");
+  command->add_option("--points", options->points, "CSV with the columns x,y,z,nx,ny,nz")
+      ->required()
+      ->type_name("FILE");
+  add_choice<Integrator>(*command, "--integrator", options->probe.integrator,
+                         {{"path", Integrator::path}, {"ivg", Integrator::ivg}},
+                         "path: path tracing; ivg: the light grid");
+  add_choice<LightPart>(*command, "--quantity", options->probe.quantity,
+                        {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
+                        "Which light is measured");
   command->add_flag("--without-environment", options->without_environment,
                     "Leave out light straight from the environment");
-  command->add_option("--spp", options->probe.samples, "Paths a point")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1 << 26));
-  command
-      ->add_option("--max-depth", options->probe.max_bounces,
-                   "Bounces between source and point; 0 is direct light only")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  add_environment_option(*command, options->environment);
-  add_grid_options(*command, options->light);
-  add_import_options(*command, options->import);
-  add_threads_option(*command, options->probe.threads);
+  add_whole(*command, "--spp", options->probe.samples, {1, 100000000}, "Paths a point");
+  add_whole(*command, "--max-depth", options->probe.max_bounces, {0, 1024},
+            "Bounces between source and point; 0 is direct light only");
+  add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer("Example:\n  lightwell probe room.glb --points points.csv --integrator ivg > irradiance.csv");
-  command->callback([=, &console, &chosen] {
-    options->light.threads = options->probe.threads;
-    chosen = [=, &console] { return probe_scene(*options, console); };
-  });
+  command->callback([=, &console, &chosen] { chosen = [=, &console] { return probe_scene(*options, console); }; });
   return command;
 }
 

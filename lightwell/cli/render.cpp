@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/cli/arguments.h"
+#include "lightwell/base/file.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
@@ -7,16 +7,15 @@
 namespace lightwell {
 namespace {
 
+constexpr uint64_t exposure_photons = 200'000;  // a tenth of an EV needs no more
+
 struct Options {
-  std::string scene;
+  SceneOptions scene;
   std::string output;
-  std::string environment;
   std::string camera;
   std::optional<Vec<int, 2>> size;
   std::optional<float> exposure;
   Display display;
-  ImportOptions import;
-  LightBakeOptions light;
   RenderOptions render;
   MeshLevel mesh_level;
   LightLevel light_level;
@@ -41,24 +40,25 @@ void set_size(const Options& options, const Camera& camera, RenderOptions& rende
 }
 
 Result<Figures> run(const Options& options, Progress& progress, Report& report) {
+  LW_CHECK(check_writable(options.output));
   Stopwatch watch;
   Figures figures;
-  LW_TRY(scene, open_scene(options.scene, options.import, options.environment, report, options.mesh_level));
+  LW_TRY(scene, open_scene(options.scene, report, options.mesh_level));
   LW_TRY(traced, TraceScene::build(scene));
   LW_TRY(camera, choose_camera(scene, options.camera));
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);
-  if (render_options.integrator == Integrator::ivg) LW_CHECK(check_environment(options.scene, scene));
-  LW_TRY(contained, contained_in_grid(options.scene, *traced));
+  if (render_options.integrator == Integrator::ivg) LW_CHECK(check_environment(options.scene.path, scene));
+  LW_TRY(contained, contained_in_grid(options.scene.path, *traced));
   LightGrid grid;
   Display display = options.display;
-  const bool chosen_exposure = !options.exposure && options.output.ends_with(".png");
+  const bool is_shown = !options.output.ends_with(".exr") && !options.output.ends_with(".pfm");
+  const bool chosen_exposure = !options.exposure && is_shown;
   if (render_options.integrator == Integrator::ivg || chosen_exposure) {
-    LightBakeOptions light = options.light;
-    light.seed = options.import.seed;
-    light.contained = contained;
-    LW_TRY(found, light_of(options.scene, *traced, light, progress, options.light_level));
+    SceneOptions light = options.scene;
+    if (render_options.integrator != Integrator::ivg) light.photons = std::min(light.photons, exposure_photons);
+    LW_TRY(found, light_of(light, *traced, contained, progress, options.light_level));
     grid = std::move(found);
     render_options.grid = &grid;
     render_options.contained = contained;
@@ -69,7 +69,8 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
     display.exposure = choose_exposure(*traced, camera, grid, contained);
   figures.prepare_seconds = watch.lap();
 
-  render_options.seed = options.import.seed;
+  render_options.seed = options.scene.import.seed;
+  render_options.threads = options.scene.threads;
   LW_TRY(picture, render(*traced, camera, render_options, progress, figures.statistics));
   LW_CHECK(write_picture(options.output, picture, display));
   return figures;
@@ -82,76 +83,68 @@ int render_scene(const Options& options, const Console& console) {
     return run(options, progress, report);
   }();
   console.warn(report);
-  if (!figures) return console.fail(in_file(figures.error(), options.scene));
-  console.print({{"seconds", {{"prepare", figures->prepare_seconds}, {"render", figures->statistics.seconds}}},
-                 {"rays", figures->statistics.rays},
-                 {"spp", options.render.samples}});
+  if (!figures) return console.fail(in_file(figures.error(), options.scene.path));
+  if (options.output != "-")
+    console.print({{"seconds", {{"prepare", figures->prepare_seconds}, {"render", figures->statistics.seconds}}},
+                   {"rays", figures->statistics.rays},
+                   {"spp", options.render.samples}});
   return 0;
 }
 
-const std::map<std::string, Integrator> integrators = {
-    {"path", Integrator::path}, {"direct", Integrator::direct}, {"ivg", Integrator::ivg}};
-const std::map<std::string, LightPart> parts = {
-    {"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}};
-const std::map<std::string, Fill> fills = {
-    {"push-pull", Fill::push_pull}, {"push-pull-smooth", Fill::push_pull_smooth}, {"none", Fill::none}};
-const std::map<std::string, ToneCurve> tones = {{"neutral", ToneCurve::neutral}, {"none", ToneCurve::none}};
+Result<Vec<int, 2>> parse_size(const std::string& text) {
+  const size_t cross = text.find('x');
+  if (cross == std::string::npos) return fail(text, "is not WIDTHxHEIGHT, such as 640x480");
+  LW_TRY(width, parse_whole(text.substr(0, cross), {1, 16384}));
+  LW_TRY(height, parse_whole(text.substr(cross + 1), {1, 16384}));
+  return Vec<int, 2>{{static_cast<int>(width), static_cast<int>(height)}};
+}
+
+void add_integrator_options(CLI::App& command, RenderOptions& render) {
+  add_choice<Integrator>(command, "--integrator", render.integrator,
+                         {{"path", Integrator::path}, {"direct", Integrator::direct}, {"ivg", Integrator::ivg}},
+                         "path: path tracing; direct: no bounces; ivg: the light grid");
+  add_choice<LightPart>(command, "--only", render.part,
+                        {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
+                        "Which light is shown");
+  add_whole(command, "--spp", render.samples, {1, 1000000}, "Samples a pixel");
+  add_whole(command, "--max-depth", render.max_bounces, {0, 1024},
+            "Bounces between source and surface; 0 is direct light only");
+}
+
+void add_picture_options(CLI::App& command, Options& options) {
+  command.add_option("--camera", options.camera, "The camera's name or number (default: the first)")
+      ->type_name("NAME|N");
+  const auto take_size = [&options](const std::string& text) -> Result<void> {
+    LW_TRY(size, parse_size(text));
+    options.size = size;
+    return {};
+  };
+  add_text(command, "--size", "WxH", take_size, "The picture's size in pixels (default: the camera's)");
+  add_number(command, "--exposure", options.exposure, {-64, 64}, "EV of a PNG (default: chosen for the scene)");
+  add_choice<ToneCurve>(command, "--tone", options.display.tone,
+                        {{"neutral", ToneCurve::neutral}, {"none", ToneCurve::none}}, "Tone curve of a PNG");
+}
 
 }  // namespace
 
 CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
-  RenderOptions& render = options->render;
   CLI::App* command = program.add_subcommand("render", "Makes a picture in software");
-  command->add_option("scene", options->scene, "A scene file, a pack, or a built-in scene")->required();
-  command->add_option("-o,--output", options->output, "FILE.png, FILE.exr or FILE.pfm")->required();
-  command->add_option("--integrator", render.integrator, "path: path tracing; direct: no bounces; ivg: the light grid")
-      ->transform(CLI::CheckedTransformer(integrators))
-      ->default_str("path");
-  command->add_option("--only", render.part, "Which light is shown")
-      ->transform(CLI::CheckedTransformer(parts))
-      ->default_str("total");
-  command->add_option("--spp", render.samples, "Samples a pixel")->capture_default_str()->check(CLI::Range(1, 1 << 20));
-  command->add_option("--max-depth", render.max_bounces, "Bounces between source and surface; 0 is direct light only")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
-  command->add_option("--camera", options->camera, "The camera's name or number (default: the first)");
-  command
-      ->add_option_function<std::string>(
-          "--size",
-          [options](const std::string& text) {
-            auto size = parse_size(text);
-            if (!size) throw CLI::ValidationError("--size", size.error().message());
-            options->size = *size;
-          },
-          "The picture's size in pixels (default: the camera's)")
-      ->type_name("WxH");
-  command->add_option("--exposure", options->exposure, "EV of a PNG (default: chosen for the scene)");
-  command->add_option("--tone", options->display.tone, "Tone curve of a PNG")
-      ->transform(CLI::CheckedTransformer(tones))
-      ->default_str("neutral");
-  command->add_option("--level", options->mesh_level.share, "Of a pack: share of the final faces")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
-  command->add_option("--light-level", options->light_level.share, "Of a pack: share of the light grid's nodes")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
-  command
-      ->add_option("--fill", options->light_level.fill,
-                   "How the other nodes are filled: push-pull, push-pull-smooth or none")
-      ->transform(CLI::CheckedTransformer(fills))
-      ->default_str("push-pull");
-  add_environment_option(*command, options->environment);
-  add_grid_options(*command, options->light);
-  add_import_options(*command, options->import);
-  add_threads_option(*command, render.threads);
+  add_output(*command, options->output, {".png", ".exr", ".pfm"},
+             "FILE.png, FILE.exr or FILE.pfm; - is a PNG on stdout")
+      ->required();
+  add_integrator_options(*command, options->render);
+  add_picture_options(*command, *options);
+  add_level_option(*command, options->mesh_level, "Of a pack: share of the final faces, 0 to 1");
+  add_number(*command, "--light-level", options->light_level.share, {0, 1},
+             "Of a pack: share of the light grid's nodes, 0 to 1")
+      ->default_str("1");
+  add_fill_option(*command, options->light_level.fill, "How the other nodes are filled");
+  add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer(
       "Examples:\n  lightwell render room.glb --spp 256 -o room.png\n"
       "  lightwell render room.lw.glb --integrator ivg --only indirect -o indirect.exr");
-  command->callback([=, &console, &chosen] {
-    options->light.threads = options->render.threads;
-    chosen = [=, &console] { return render_scene(*options, console); };
-  });
+  command->callback([=, &console, &chosen] { chosen = [=, &console] { return render_scene(*options, console); }; });
   return command;
 }
 

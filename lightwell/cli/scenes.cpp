@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/base/file.h"
-#include "lightwell/cli/arguments.h"
+#include "lightwell/cli/command.h"
+#include "lightwell/cli/option_kinds.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
 
@@ -48,6 +49,7 @@ int write(const Options& options, const Console& console) {
   const BuiltinScene* builtin = find_builtin_scene(options.name);
   if (builtin == nullptr)
     return console.fail({options.name, "", "is no built-in scene; `lightwell scenes` lists them"});
+  if (auto writable = check_writable(options.output); !writable) return console.fail(writable.error());
   Report report;
   auto glb = write_glb(builtin->make(options.seed), report);
   if (!glb) return console.fail(in_file(glb.error(), options.name));
@@ -61,9 +63,9 @@ int write(const Options& options, const Console& console) {
 CLI::App* add_scenes(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("scenes", "Lists the built-in scenes, or writes one as glTF");
-  command->add_option("name", options->name, "The scene to write");
-  command->add_option("-o,--output", options->output, "The .glb file to write; - is stdout");
-  command->add_option("--seed", options->seed, "Seed of the scene's relief")->capture_default_str();
+  command->add_option("name", options->name, "The scene to write")->type_name("");
+  add_output(*command, options->output, {".glb"}, "The file to write, FILE.glb; - is stdout");
+  add_whole(*command, "--seed", options->seed, seed_range, "Seed of the scene's relief");
   command->footer("Examples:\n  lightwell scenes\n  lightwell scenes box-small -o box-small.glb");
   command->callback([=, &console, &chosen] {
     if (options->name.empty() != options->output.empty())

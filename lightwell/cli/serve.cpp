@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "lightwell/cli/command.h"
+#include "lightwell/cli/option_kinds.h"
 #include "lightwell/server/server.h"
 
 namespace lightwell {
@@ -41,10 +42,14 @@ CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& c
   auto options = std::make_shared<Options>();
   options->server.page = LIGHTWELL_PAGE;
   CLI::App* command = program.add_subcommand("serve", "HTTP server for packs, with the page");
-  command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")->required();
-  command->add_option("--bind", options->server.bind, "Address to listen on")->capture_default_str();
-  command->add_option("--port", options->server.port, "Port; 0 for any free one")->capture_default_str();
-  command->add_option("--page", options->server.page, "Folder of the page");
+  command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")
+      ->required()
+      ->type_name("");
+  command->add_option("--bind", options->server.bind, "Address to listen on")
+      ->capture_default_str()
+      ->type_name("ADDRESS");
+  add_whole(*command, "--port", options->server.port, {0, 65535}, "Port; 0 for any free one");
+  command->add_option("--page", options->server.page, "Folder of the page")->type_name("FOLDER");
   command->add_flag("--open", options->open, "Open the page in a browser");
   command->footer("Examples:\n  lightwell serve room.lw.glb\n  lightwell serve packs/ --bind 0.0.0.0 --port 80");
   command->callback(

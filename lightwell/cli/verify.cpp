@@ -24,7 +24,7 @@ int verify(const std::string& path, const Console& console) {
 CLI::App* add_verify(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto path = std::make_shared<std::string>();
   CLI::App* command = program.add_subcommand("verify", "Reads every block of a pack, checks and decodes all of it");
-  command->add_option("pack", *path, "A pack")->required();
+  command->add_option("pack", *path, "A pack")->required()->type_name("");
   command->footer("Example:\n  lightwell verify room.lw.glb");
   command->callback([=, &console, &chosen] { chosen = [=, &console] { return verify(*path, console); }; });
   return command;

@@ -46,7 +46,7 @@ Image displayed(const Picture& picture, const Display& display) {
 
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture, const Display& display) {
   const std::string ending = path.extension().string();
-  if (ending == ".png") return write_file(path, write_png(displayed(picture, display)));
+  if (ending.empty() || ending == ".png") return write_file(path, write_png(displayed(picture, display)));
   if (ending == ".pfm") return write_file(path, write_pfm(picture));
   if (ending != ".exr") return fail(in_file({"", "picture", "the name must end in .png, .exr or .pfm"}, path.string()));
   auto file = write_exr(picture);

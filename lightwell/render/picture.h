@@ -35,7 +35,7 @@ Vec3f neutral_tone(Vec3f colour);
 /// The picture as a screen shows it: 8-bit sRGB, three channels.
 Image displayed(const Picture& picture, const Display& display);
 
-/// Writes a picture; the name's ending says how: .png (as displayed), .exr or .pfm (32-bit floats as they are).
+/// Writes a picture; the name's ending says how: .png or none (as displayed), .exr or .pfm (32-bit floats as they are).
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture, const Display& display = {});
 
 /// Reads a picture, recognised by content: OpenEXR, PFM (colour or grey, either byte order), or an 8-bit image, which

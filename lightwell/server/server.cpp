@@ -9,23 +9,10 @@
 #include <optional>
 #include <set>
 
-// Boost 1.74's asio uses std::exchange without including <utility>.
-// clang-format off
-#include <utility>
-#include <boost/asio.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-// clang-format on
-
+#include "lightwell/base/beast.h"
 #include "lightwell/server/response.h"
 
 namespace lightwell {
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-using asio::ip::tcp;
-using boost::system::error_code;
-
 namespace {
 
 constexpr size_t longest_header = 8192;
@@ -217,8 +204,8 @@ class Server::Loop {
     if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
+    if (!error) port_ = acceptor_.local_endpoint(error).port();
     if (error) return fail(options_.bind + ":" + std::to_string(options_.port), error.message());
-    port_ = acceptor_.local_endpoint().port();
     stop_event_.assign(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), error);
     if (error) return fail("server", error.message());
     std::signal(SIGPIPE, SIG_IGN);

@@ -2,6 +2,7 @@
 #include "lightwell/transport/fetch.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -11,6 +12,7 @@ namespace {
 constexpr size_t unlimited = std::numeric_limits<size_t>::max();
 constexpr double timeline_seconds = 0.01;
 constexpr double longest_wait = 0.5;  // so that cancelling does not wait for a silent line
+constexpr int first_refusal = 400;    // the least HTTP status that is none of success
 
 void perform(Client& client, Transport& transport) {
   while (const std::optional<Action> action = client.next(transport.now())) {
@@ -71,18 +73,70 @@ class Watcher {
   bool changed_ = false;
 };
 
+constexpr const char* silence = "the server does not answer";
+
+/// Why an event makes a client try again; empty when the server is not to blame.
+std::string reason_of(const TransportEvent& event) {
+  if (event.kind == TransportEvent::Kind::failed) return event.reason;
+  if (event.kind == TransportEvent::Kind::head && event.status >= first_refusal)
+    return "the server answers " + std::to_string(event.status);
+  return {};
+}
+
+/// Notices when the server has gone and when it is back.
+class Listener {
+ public:
+  Listener(const FetchGuard& guard, double now) : guard_(guard), heard_(now) {}
+
+  void hear(const TransportEvent& event, double now) {
+    if (event.kind == TransportEvent::Kind::bytes) heard_ = now;
+  }
+
+  /// Sees whether the client has failed since the last look, for the given reason.
+  void look(const Client& client, const std::string& reason) {
+    const uint32_t failures = client.progress().failures;
+    if (failures > failures_ && !reason.empty()) {
+      if (outage_.empty() && guard_.outage) guard_.outage(reason);
+      outage_ = reason;
+    }
+    if (failures == 0) outage_.clear();
+    failures_ = failures;
+  }
+
+  /// When patience ends.
+  double end() const { return heard_ + guard_.patience; }
+  std::string farewell() const {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%g", guard_.patience);
+    return (outage_.empty() ? silence : outage_) + "; gave up after " + seconds + " s";
+  }
+
+ private:
+  const FetchGuard& guard_;
+  double heard_;  ///< when the last bytes came
+  uint32_t failures_ = 0;
+  std::string outage_;  ///< the latest reason while it lasts
+};
+
 }  // namespace
 
 Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::function<void(const Update&)>& apply,
-                           const std::function<bool()>& cancelled) {
+                           const FetchGuard& guard) {
   FetchOutcome outcome;
   Watcher watcher(apply);
+  Listener listener(guard, transport.now());
   while (!client.ended()) {
-    if (cancelled && cancelled()) return fail("fetch", "was cancelled");
+    if (guard.cancelled && guard.cancelled()) return fail("fetch", "was cancelled");
     perform(client, transport);
+    listener.look(client, silence);
     const double now = transport.now();
-    const double until = std::min(client.wake(), now + longest_wait);
-    if (const std::optional<TransportEvent> event = transport.wait(until)) report(client, *event, transport.now());
+    if (now >= listener.end()) return fail("", listener.farewell());
+    const double until = std::min({client.wake(), now + longest_wait, listener.end()});
+    if (const std::optional<TransportEvent> event = transport.wait(until)) {
+      listener.hear(*event, transport.now());
+      report(client, *event, transport.now());
+      listener.look(client, reason_of(*event));
+    }
     watcher.drain(client);
     watcher.remember(client, transport.now(), outcome);
   }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "lightwell/client/client.h"
@@ -25,9 +27,18 @@ struct FetchOutcome {
   std::vector<Moment> timeline;  ///< whenever something had been decoded, at most about 100 a second
 };
 
+/// Who watches over a fetch. A client tries again for ever; here is what may end it before.
+struct FetchGuard {
+  /// Asked twice a second or more; true ends the run with an error.
+  std::function<bool()> cancelled = {};
+  /// Told why the server gives nothing, once until it gives again.
+  std::function<void(const std::string&)> outage = {};
+  /// So many seconds without a byte end the run with an error.
+  double patience = std::numeric_limits<double>::infinity();
+};
+
 /// Runs a client to its end over a transport; `apply` gets every update. The client's failure is an error.
-/// `cancelled`, if given, is asked often and ends the run with an error when it says true.
 Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::function<void(const Update&)>& apply,
-                           const std::function<bool()>& cancelled = {});
+                           const FetchGuard& guard = {});
 
 }  // namespace lightwell

@@ -7,23 +7,10 @@
 #include <limits>
 #include <map>
 
-// Boost 1.74's asio uses std::exchange without including <utility>.
-// clang-format off
-#include <utility>
-#include <boost/asio.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
-// clang-format on
-
+#include "lightwell/base/beast.h"
 #include "lightwell/transport/transport.h"
 
 namespace lightwell {
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-using asio::ip::tcp;
-using boost::system::error_code;
-
 namespace {
 
 struct Url {
@@ -51,6 +38,8 @@ std::optional<Url> parse_url(std::string_view text) {
 /// The server, and the events that its answers bring.
 struct Exchange {
   asio::io_context io;
+  /// Lets io wait for its time also when nothing is under way.
+  asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(io);
   Url url;
   tcp::resolver::results_type addresses;
   std::deque<TransportEvent> events;
@@ -91,7 +80,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     buffer_.clear();
     asio::async_connect(socket_, exchange_.addresses,
                         [self = shared_from_this()](error_code error, const tcp::endpoint&) {
-                          if (error || !self->busy_) return self->failed();
+                          if (error || !self->busy_) return self->failed(error);
                           error_code ignored;
                           self->socket_.set_option(tcp::no_delay(true), ignored);
                           self->write();
@@ -100,7 +89,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void write() {
     http::async_write(socket_, question_, [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->failed_before_answer();
+      if (error) return self->failed_before_answer(error);
       self->read_head();
     });
   }
@@ -109,7 +98,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     parser_.emplace();
     parser_->body_limit(std::numeric_limits<uint64_t>::max());
     http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->failed_before_answer();
+      if (error) return self->failed_before_answer(error);
       self->on_head();
     });
   }
@@ -129,7 +118,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     parser_->get().body().data = piece_.data();
     parser_->get().body().size = piece_.size();
     http::async_read_some(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
-      if (error && error != http::error::need_buffer) return self->failed();
+      if (error && error != http::error::need_buffer) return self->failed(error);
       self->on_body();
     });
   }
@@ -154,13 +143,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   /// A server may close an idle connection at any moment: that is no failure yet.
-  void failed_before_answer() {
+  void failed_before_answer(error_code error) {
     if (busy_ && reused_) return connect();
-    failed();
+    failed(error);
   }
 
-  void failed() {
-    if (busy_) exchange_.events.push_back({TransportEvent::Kind::failed, request_, 0, {}, {}, {}});
+  void failed(error_code error) {
+    if (busy_) exchange_.events.push_back({TransportEvent::Kind::failed, request_, 0, {}, {}, {}, error.message()});
     abandon();
   }
 
@@ -215,15 +204,9 @@ class HttpTransport final : public Transport {
   std::optional<TransportEvent> wait(double until) override {
     while (exchange_.events.empty()) {
       const double left = std::clamp(until - now(), 0.0, 3600.0);
-      exchange_.io.restart();
       const size_t ran = exchange_.io.run_one_for(
           std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::duration<double>(left)));
-      if (ran > 0) continue;
-      if (now() >= until) return std::nullopt;
-      // Nothing is under way: io has no work and returns at once.
-      asio::steady_timer timer(
-          exchange_.io, std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::duration<double>(left)));
-      timer.wait();
+      if (ran == 0 && now() >= until) return std::nullopt;
     }
     TransportEvent event = std::move(exchange_.events.front());
     exchange_.events.pop_front();

@@ -27,6 +27,7 @@ struct TransportEvent {
   std::string content_range;
   std::string etag;
   std::vector<uint8_t> bytes;
+  std::string reason = {};  ///< of a failure, in the system's words: "Connection refused"
 };
 
 /// Carries a client's requests for the bytes of one file.

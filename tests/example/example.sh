@@ -18,5 +18,5 @@ until [ -s "$work/url" ]; do kill -0 $server; done
 url=$(sed 's/.*"url":"\([^"]*\)".*/\1/' "$work/url")
 timeout 60 "$example" "${url}packs/box.glb" >"$work/output"
 last=$(tail -n 1 "$work/output")
-whole=$("$program" info "$work/box.glb" | sed -n 's/^meshes\[0\].faces: //p')
+whole=$("$program" info "$work/box.glb" --json | grep -o '"faces":[0-9]*' | head -n 1 | cut -d: -f2)
 [ "$last" = "$whole triangles" ] || { echo "it ended with '$last', not with $whole triangles"; exit 1; }

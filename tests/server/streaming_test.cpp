@@ -112,7 +112,7 @@ class Streaming : public testing::Test {
       often();
       return false;
     };
-    return fetch(client, *transport, apply, never);
+    return fetch(client, *transport, apply, {.cancelled = never});
   }
 
   /// Puts another file in place of the pack, as a baker does.

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
+#include <deque>
 #include <thread>
 
 #include "lightwell/transport/fetch.h"
@@ -61,8 +64,64 @@ TEST(Fetch, FailuresAreErrors) {
   EXPECT_FALSE(fetch(client, *transport, [](const Update&) {}));
   Client other({});
   const auto again = memory_transport(sample());
-  EXPECT_FALSE(fetch(
-      other, *again, [](const Update&) {}, [] { return true; }));
+  EXPECT_FALSE(fetch(other, *again, [](const Update&) {}, {.cancelled = [] { return true; }}));
+}
+
+/// A line on which requests get no answer, by and by: the first ones fail, are told to come back, or hear nothing.
+class BadLine final : public Transport {
+ public:
+  enum class Fault { refused, busy, silent };
+  BadLine(Fault fault, uint32_t requests) : fault_(fault), left_(requests) {}
+
+  double now() override { return good_->now(); }
+  void ask(uint32_t request, uint64_t first, uint64_t last) override {
+    if (left_ == 0) return good_->ask(request, first, last);
+    left_--;
+    using Kind = TransportEvent::Kind;
+    if (fault_ == Fault::refused) events_.push_back({Kind::failed, request, 0, {}, {}, {}, "Connection refused"});
+    if (fault_ == Fault::busy) events_.push_back({Kind::head, request, 503, {}, {}, {}});
+  }
+  void cancel(uint32_t request) override { good_->cancel(request); }
+  std::optional<TransportEvent> wait(double until) override {
+    if (events_.empty()) return good_->wait(until);
+    const TransportEvent event = events_.front();
+    events_.pop_front();
+    return event;
+  }
+
+ private:
+  std::unique_ptr<Transport> good_ = memory_transport(sample());
+  std::deque<TransportEvent> events_;
+  Fault fault_;
+  uint32_t left_;
+};
+
+TEST(Fetch, AnOutageIsToldOnceAndSurvived) {
+  using Fault = BadLine::Fault;
+  for (const auto& [fault, reason] :
+       {std::pair(Fault::refused, "Connection refused"), std::pair(Fault::busy, "the server answers 503"),
+        std::pair(Fault::silent, "the server does not answer")}) {
+    BadLine line(fault, 4);
+    Client client({});
+    std::vector<std::string> told;
+    const auto tell = [&](const std::string& text) { told.push_back(text); };
+    EXPECT_TRUE(fetch(client, line, [](const Update&) {}, {.outage = tell}));
+    EXPECT_EQ(told, std::vector<std::string>{reason});
+  }
+}
+
+TEST(Fetch, PatienceEndsWithWhatWasWrong) {
+  using Fault = BadLine::Fault;
+  for (const auto& [fault, reason] : {std::pair(Fault::refused, "Connection refused; gave up after 40 s"),
+                                      std::pair(Fault::busy, "the server answers 503; gave up after 40 s"),
+                                      std::pair(Fault::silent, "the server does not answer; gave up after 40 s")}) {
+    BadLine line(fault, 1000);
+    Client client({});
+    const auto outcome = fetch(client, line, [](const Update&) {}, {.patience = 40});
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().reason, reason);
+    EXPECT_NEAR(line.now(), 40, 1e-6) << "neither sooner nor later";
+  }
 }
 
 /// A file server of one thread and a connection at a time, which closes each connection after a few answers.
@@ -145,6 +204,21 @@ TEST(HttpTransport, NobodyThereIsAFailedRequest) {
   ASSERT_TRUE(event);
   EXPECT_EQ(event->kind, TransportEvent::Kind::failed);
   EXPECT_EQ(event->request, 7u);
+  EXPECT_EQ(event->reason, "Connection refused");
+}
+
+// A signal that has a handler ends a system's wait before its time, which is none of the transport's business.
+TEST(HttpTransport, ASignalDoesNotDisturbAWait) {
+  const auto transport = http_transport("http://127.0.0.1:1/pack.glb");
+  ASSERT_TRUE(transport);
+  const auto before = std::signal(SIGALRM, [](int) {});
+  const itimerval often{{0, 10000}, {0, 10000}}, never{};
+  ::setitimer(ITIMER_REAL, &often, nullptr);
+  const double until = (*transport)->now() + 0.2;
+  EXPECT_FALSE((*transport)->wait(until));
+  EXPECT_GE((*transport)->now(), until);
+  ::setitimer(ITIMER_REAL, &never, nullptr);
+  std::signal(SIGALRM, before);
 }
 
 TEST(HttpTransport, WrongUrlsAreErrors) {

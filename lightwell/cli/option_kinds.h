@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+#include "lightwell/base/result.h"
+
+namespace lightwell {
+
+// The kinds of options that the commands share. What does not fit is bad usage, said in words: the option, what was
+// given, what was expected.
+
+/// Adds an option that `take` reads from its text; `kind` stands for the value in the help ("NUMBER").
+CLI::Option* add_text(CLI::App& command, const std::string& name, const std::string& kind,
+                      const std::function<Result<void>(const std::string&)>& take, const std::string& help);
+
+/// Both ends belong to it.
+struct NumberRange {
+  double least = 0, most = 1;
+};
+
+/// The seeds that options take: whole numbers that JSON keeps exactly.
+constexpr NumberRange seed_range = {0, 1e15};
+
+/// Reads a number; nan, infinity and what is outside the range are refused.
+Result<double> parse_number(const std::string& text, NumberRange range);
+/// Reads a whole number in the range.
+Result<int64_t> parse_whole(const std::string& text, NumberRange range);
+/// Reads a whole number that may end in k, M or G, small or large ("8M" is 8 000 000), or have an exponent ("1e6").
+Result<uint64_t> parse_count(const std::string& text);
+
+/// Adds an option whose value is a number of the range.
+template <typename T>
+CLI::Option* add_number(CLI::App& command, const std::string& name, T& value, NumberRange range,
+                        const std::string& help) {
+  const auto take = [&value, range](const std::string& text) -> Result<void> {
+    LW_TRY(number, parse_number(text, range));
+    value = static_cast<float>(number);
+    return {};
+  };
+  return add_text(command, name, "NUMBER", take, help);
+}
+
+/// Adds an option whose value is a whole number of the range.
+template <typename T>
+CLI::Option* add_whole(CLI::App& command, const std::string& name, T& value, NumberRange range,
+                       const std::string& help) {
+  const auto take = [&value, range](const std::string& text) -> Result<void> {
+    LW_TRY(number, parse_whole(text, range));
+    value = static_cast<T>(number);
+    return {};
+  };
+  return add_text(command, name, "N", take, help)->default_str(std::to_string(value));
+}
+
+/// Adds an option whose value is a count of at least 1, as parse_count reads it.
+CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help);
+
+/// "a, b or c"
+std::string one_of(const std::vector<std::string>& names);
+
+/// Adds an option whose value is one of some names, each with what it means to the program.
+template <typename T>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
+                        const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
+  std::vector<std::string> names;
+  std::string kind, standard;
+  for (const auto& [choice, meaning] : choices) {
+    names.push_back(choice);
+    kind += (kind.empty() ? "" : "|") + choice;
+    if (meaning == value) standard = choice;
+  }
+  const auto take = [&value, choices, names](const std::string& text) -> Result<void> {
+    for (const auto& [choice, meaning] : choices) {
+      if (choice != text) continue;
+      value = meaning;
+      return {};
+    }
+    return fail(text, "is not " + one_of(names));
+  };
+  return add_text(command, name, kind, take, help)->default_str(standard);
+}
+
+/// Adds -o, the file that the command writes; its name has to end in one of `endings`, the first of which is also what
+/// stdout ("-") and devices get. Whether it can be written is asked by check_writable when the command begins.
+CLI::Option* add_output(CLI::App& command, std::string& path, const std::vector<std::string>& endings,
+                        const std::string& help);
+
+}  // namespace lightwell

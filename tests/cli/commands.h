@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace lightwell {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Outcome {
+  int status = 0;
+  std::string out, err;
+
+  size_t lines() const { return static_cast<size_t>(std::count(err.begin(), err.end(), '\n')); }
+};
+
+/// Runs the program in a folder of the test's own.
+class Commands : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("lightwell_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// `by` runs it: by default something that ends what hangs.
+  Outcome run(const std::string& arguments, const std::string& by = "timeout 60") const {
+    const std::string out = path("stdout"), err = path("stderr");
+    const int status = std::system((by + " " LIGHTWELL_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+  const fs::path& folder() const { return folder_; }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string read(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::stringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  /// Bakes box-small with few photons.
+  std::string small_pack(const std::string& more = "") const {
+    const std::string pack = path("box.lw.glb");
+    const Outcome baked = run("bake box-small -o " + pack + " --photons 20k --grid 6 --quiet " + more);
+    EXPECT_EQ(baked.status, 0) << baked.err;
+    return pack;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+}  // namespace lightwell

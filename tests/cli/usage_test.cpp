@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the program says to those who mistype, and to files and servers that are not what they should be.
+#include "tests/cli/commands.h"
+
+namespace lightwell {
+namespace {
+
+struct Case {
+  std::string arguments;
+  std::string said;  ///< in the one line on stderr
+};
+
+TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
+  const std::string out = " -o " + path("x.glb");
+  for (const Case& bad : std::vector<Case>{
+           {"", "a command is missing"},
+           {"bogus", "bogus: no such command"},
+           {"--bogus", "--bogus: no such option"},
+           {"bake", "--output is required"},
+           {"bake box-small", "--output is required"},
+           {"bake box-small -o", "--output: takes one value"},
+           {"bake box-small more" + out, "more: more than was expected"},
+           {"bake box-small --phtons 5" + out, "--phtons 5: no such option"},
+           {"bake box-small --grid 1" + out, "--grid: 1: is neither auto nor a whole number from 2 to 256"},
+           {"bake box-small --grid many" + out, "neither auto nor"},
+           {"bake box-small --photons many" + out, "such as 5000, 200k, 8M or 1G"},
+           {"bake box-small --photons 0" + out, "is not at least 1"},
+           {"bake box-small --photons nan" + out, "such as 5000"},
+           {"bake box-small --unit nan" + out, "--unit: nan: is not a number from 1e-09 to"},
+           {"bake box-small --unit inf" + out, "--unit: inf: is not a number"},
+           {"bake box-small --unit 0" + out, "--unit: 0: is not a number"},
+           {"bake box-small --unit 1m" + out, "--unit: 1m: is not a number"},
+           {"bake box-small --up x" + out, "--up: x: is not y or z"},
+           {"bake box-small --position-error nan" + out, "--position-error: nan"},
+           {"bake box-small --position-error -1" + out, "--position-error: -1"},
+           {"bake box-small --threads 5000" + out, "--threads: 5000: is not a whole number from 0 to 1024"},
+           {"bake box-small --seed 1.5" + out, "--seed: 1.5: is not a whole number"},
+           {"bake box-small --environment 1,2" + out, "--environment: 1,2: is neither R,G,B"},
+           {"bake box-small --environment red" + out, "nor the name of a file"},
+           {"bake box-small --environment 1,2,inf" + out, "is neither R,G,B"},
+           {"bake box-small -o " + path("x.xyz"), "x.xyz: the name does not end in .glb"},
+           {"scenes box", "go together"},
+           {"scenes furnace -o " + path("x.obj"), "x.obj: the name does not end in .glb"},
+           {"export a.glb -o " + path("x.xyz"), "does not end in .glb or .ply"},
+           {"render box-small -o " + path("x.jpg"), "does not end in .png, .exr or .pfm"},
+           {"render box-small --size 0x5 -o " + path("x.png"), "0: is not a whole number from 1 to 16384"},
+           {"render box-small --size 5 -o " + path("x.png"), "--size: 5: is not WIDTHxHEIGHT"},
+           {"render box-small --exposure nan -o " + path("x.png"), "--exposure: nan"},
+           {"render box-small --level 2 -o " + path("x.png"), "--level: 2: is not a number from 0 to 1"},
+           {"render box-small --only all -o " + path("x.png"), "--only: all: is not total, direct or indirect"},
+           {"diff a b -o " + path("x.exr"), "does not end in .png"},
+           {"diff a b --metric best", "is not rmse, relmse, deltae, lab or flip"},
+           {"fetch a --latency inf", "--latency: inf"},
+           {"fetch a --timeout nan", "--timeout: nan"},
+           {"fetch a --rate fast", "--rate: fast"},
+           {"serve a --port 70000", "--port: 70000: is not a whole number from 0 to 65535"}}) {
+    const Outcome outcome = run(bad.arguments);
+    EXPECT_EQ(outcome.status, 2) << bad.arguments;
+    EXPECT_EQ(outcome.lines(), 1u) << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("lightwell: ", 0), 0u) << outcome.err;
+    EXPECT_NE(outcome.err.find(bad.said), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("--help`"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(Commands, HelpIsForPeople) {
+  for (const char* command :
+       {"", "scenes", "bake", "info", "verify", "serve", "fetch", "render", "probe", "export", "diff"}) {
+    const std::string help = run(std::string(command) + " --help").out;
+    for (const char* jargon : {"INT", "FLOAT", "ENUM", "TEXT", "->", "NONNEGATIVE"})
+      EXPECT_EQ(help.find(jargon), std::string::npos) << help;
+  }
+  EXPECT_NE(run("bake --help").out.find("200k, 8M"), std::string::npos);
+  EXPECT_NE(run("render --help").out.find("path|direct|ivg"), std::string::npos);
+}
+
+TEST_F(Commands, CountsTakeSuffixesOfBothCases) {
+  for (const std::string count : {"20k", "20K", "0.02M", "0.02m", "2e4", "20000"}) {
+    const Outcome baked = run("bake furnace --grid 2 --json --quiet -o " + path("x.glb") + " --photons " + count);
+    EXPECT_EQ(json::parse(baked.out)["photons"], 20000) << count;
+  }
+}
+
+// The work itself would take hours.
+TEST_F(Commands, WhatCannotBeWrittenIsNoticedBeforeTheWork) {
+  const std::string pack = small_pack();
+  write("file", "");
+  fs::create_directories(path("folder.glb"));
+  for (const std::string place : {"missing/x", "file/x"}) {
+    for (const std::string& command :
+         {"bake box-small --photons 100G -o " + path(place + ".glb"),
+          "render box-small --spp 1000000 -o " + path(place + ".png"), "export " + pack + " -o " + path(place + ".ply"),
+          "scenes furnace -o " + path(place + ".glb"), "diff a.png b.png -o " + path(place + ".png"),
+          "fetch " + pack + " --rate 1 -o " + path(place + ".glb")}) {
+      const Outcome outcome = run(command);
+      EXPECT_EQ(outcome.status, 1) << command;
+      EXPECT_EQ(outcome.lines(), 1u) << outcome.err;
+      EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
+    }
+  }
+  const Outcome folder = run("bake box-small --photons 100G -o " + path("folder.glb"));
+  EXPECT_EQ(folder.status, 1);
+  EXPECT_NE(folder.err.find("is a folder"), std::string::npos) << folder.err;
+}
+
+TEST_F(Commands, AFullDeviceIsAnError) {
+  const std::string pack = small_pack();
+  const Outcome outcome = run("export " + pack + " -o /dev/full");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err, "lightwell: /dev/full: No space left on device\n");
+  const int status = std::system((LIGHTWELL_PROGRAM " info " + pack + " >/dev/full 2>&1").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1) << "figures that are lost are no success";
+}
+
+TEST_F(Commands, WhatIsNoPackIsCalledSo) {
+  const std::string pack = read(small_pack());
+  write("junk", "hello");
+  write("empty", "");
+  write("cut.glb", pack.substr(0, pack.size() / 2));
+  ASSERT_EQ(run("scenes furnace -o " + path("plain.glb")).status, 0);
+  fs::create_directories(path("folder"));
+  const std::string to_export = "export -o " + path("x.glb");
+  for (const std::string& command : std::vector<std::string>{"info", "verify", "fetch", "serve --port 0", to_export}) {
+    for (const auto& [file, said] :
+         std::vector<std::pair<std::string, std::string>>{{"junk", "is no pack"},
+                                                          {"plain.glb", "not a pack"},
+                                                          {"folder", "is a folder"},
+                                                          {"empty", "empty"},
+                                                          {"cut.glb", command == "fetch" ? "should have" : "cut short"},
+                                                          {"missing", "o such file"}}) {
+      if (command == "serve --port 0" && file == "folder") continue;  // it serves folders
+      const Outcome outcome = run(command + " " + path(file), "timeout 5");
+      EXPECT_EQ(outcome.status, 1) << command << " " << file;
+      EXPECT_EQ(outcome.lines(), 1u) << outcome.err;
+      EXPECT_EQ(outcome.err.rfind("lightwell: " + path(file), 0), 0u) << outcome.err;
+      EXPECT_NE(outcome.err.find(said), std::string::npos) << command << ": " << outcome.err;
+    }
+  }
+  EXPECT_FALSE(fs::exists(path("x.glb")));
+}
+
+// As a glTF it would be read at its coarsest level, without a word.
+TEST_F(Commands, ADamagedPackIsNotTakenForAnotherGltf) {
+  std::string pack = read(small_pack());
+  pack[300] = static_cast<char>(pack[300] ^ 1);
+  write("damaged.glb", pack);
+  for (const std::string& command : {"render --spp 1 -o " + path("x.png"), "bake -o " + path("x.glb")}) {
+    const Outcome outcome = run(command + " --quiet " + path("damaged.glb"));
+    EXPECT_EQ(outcome.status, 1) << command;
+    EXPECT_NE(outcome.err.find("check is wrong"), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(Commands, UpAndUnitAreNotForScenesThatHaveTheirOwn) {
+  const std::string pack = small_pack();
+  for (const std::string& scene : {std::string("box-small"), pack}) {
+    for (const char* option : {" --unit 0.001", " --up z"}) {
+      const Outcome outcome = run("bake --quiet " + scene + option + " -o " + path("x.glb"));
+      EXPECT_EQ(outcome.status, 1);
+      EXPECT_NE(outcome.err.find("--up and --unit"), std::string::npos) << outcome.err;
+    }
+  }
+}
+
+TEST_F(Commands, APositionErrorLargerThanTheSceneLeavesItsForm) {
+  const std::string pack = small_pack("--position-error 1000");
+  const json info = json::parse(run("info --json " + pack).out);
+  ASSERT_EQ(info["meshes"].size(), 1u);
+  EXPECT_GT(info["meshes"][0]["faces"], 1000);
+  EXPECT_EQ(run("verify " + pack).status, 0);
+}
+
+TEST_F(Commands, InfoIsReadable) {
+  const std::string text = run("info " + small_pack()).out;
+  for (const char* part : {"mesh 0: 20,010 faces", "bits a vertex", "grid 0: 5 x 5 x 6 nodes, cells of 1 x 1 x 1 m",
+                           "lamp 0: rectangle", "radiance 14 12 9 W/m2/sr", "stream 0: light", " kB"})
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST_F(Commands, FetchNamesAServerThatIsNotThereAndGivesUp) {
+  const Outcome outcome = run("fetch http://127.0.0.1:1/x.glb --timeout 1");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err,
+            "lightwell: warning: http://127.0.0.1:1/x.glb: Connection refused; trying again\n"
+            "lightwell: http://127.0.0.1:1/x.glb: Connection refused; gave up after 1 s\n");
+  const Outcome secure = run("fetch https://127.0.0.1/x.glb");
+  EXPECT_EQ(secure.status, 1);
+  EXPECT_NE(secure.err.find("https is not spoken"), std::string::npos) << secure.err;
+}
+
+TEST_F(Commands, ASignalEndsAFetchInOneLine) {
+  for (const auto& [signal, status] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+    const Outcome outcome = run("fetch http://127.0.0.1:1/x.glb --quiet --timeout 0",
+                                std::string("timeout --preserve-status -s ") + signal + " 0.5");
+    EXPECT_EQ(outcome.status, status);
+    EXPECT_EQ(outcome.err, "lightwell: cancelled, nothing written\n");
+  }
+}
+
+}  // namespace
+}  // namespace lightwell
