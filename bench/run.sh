@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace truth mesh light fetch server sizes frame)
+parts=(bake trace truth mesh light fetch server sizes frame growth direct)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -90,6 +90,21 @@ bench_sizes() { (cd web && show npm run --silent sizes); }
 bench_frame() {
   command -v chromium >/dev/null || { missing chromium; return; }
   show node bench/frame.mjs "$(pack)"
+}
+
+built_in() { # NAME: the path of a built-in scene's pack.
+  [ -e "$out/$1.lw.glb" ] || show "$lightwell" bake "$1" -o "$out/$1.lw.glb" --quiet
+  echo "$out/$1.lw.glb"
+}
+
+bench_growth() {
+  command -v chromium >/dev/null || { missing chromium; return; }
+  show node bench/growth.mjs "$(built_in box)"
+}
+
+bench_direct() {
+  command -v chromium >/dev/null || { missing chromium; return; }
+  show node bench/direct_light.mjs "$(built_in box-small)"
 }
 
 mkdir -p "$out"
