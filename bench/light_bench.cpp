@@ -53,7 +53,7 @@ BENCHMARK(decode)->Arg(0)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
 
 void write_atlas(benchmark::State& state) {
   const LightGrid grid = cube(32, 0);
-  LightAtlas atlas(grid.shape, AtlasForm::patched, grid.normal_offset, light_scale(grid));
+  LightAtlas atlas(grid.shape, grid.normal_offset, light_scale(grid));
   for (auto _ : state) {
     atlas.update(grid);
     benchmark::DoNotOptimize(atlas.halves.data());

@@ -20,7 +20,7 @@ void draw(const LightDecoder& decoder) {
   LightGrid grid = decoder.grid();
   push_pull(grid, decoder.known(), Fill::push_pull_smooth);
   LW_ASSERT(is_finite(grid.irradiance(grid.shape.lo, {{0, 1, 0}})));
-  LightAtlas(grid.shape, AtlasForm::patched, grid.normal_offset, decoder.layout().scale).update(grid);
+  LightAtlas(grid.shape, grid.normal_offset, decoder.layout().scale).update(grid);
 }
 
 }  // namespace

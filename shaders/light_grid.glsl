@@ -10,7 +10,7 @@
 //   probesResolution   size of the box of the nodes in the world: x negative when the world mirrors the grid, z always negated
 // which is what Matrix4.decompose gives for (the object's matrix times a translation to the grid's first node), the
 // scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
-// in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the form "patched" of the values. Red of texel (1, 0, 0) is
+// in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the values. Red of texel (1, 0, 0) is
 // 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there.
 //
 // docs/decisions/011-cost-of-the-lookup.md tells what costs how much.

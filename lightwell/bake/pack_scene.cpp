@@ -6,6 +6,7 @@
 #include "lightwell/bake/pack_json.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
+#include "lightwell/pack/self_contained.h"
 
 namespace lightwell {
 namespace {
@@ -168,7 +169,9 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   GlbParts parts = glb_parts(document);
   LW_TRY(writer, PackWriter::create(std::move(parts.bin), std::move(streams)));
   add_stream_table(document.json, writer.plan(), light.exposure);
-  auto file = writer.finish(glb_parts(document).json);
+  const std::string json = glb_parts(document).json;
+  LW_CHECK(check_self_contained(json));
+  auto file = writer.finish(json);
   if (!file) return fail(file.error());
   count(scene, statistics);
   count(writer.plan(), file->size(), statistics);

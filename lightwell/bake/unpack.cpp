@@ -12,19 +12,6 @@
 namespace lightwell {
 namespace {
 
-// The data of a chunk of the opening.
-Bytes chunk_of(Bytes glb, uint32_t type) {
-  ByteReader reader(glb);
-  reader.take(glb_header_bytes);
-  while (reader.remaining() >= chunk_header_bytes) {
-    const uint32_t length = reader.u32();
-    const uint32_t found = reader.u32();
-    const Bytes data = reader.take(length);
-    if (found == type) return data;
-  }
-  return {};
-}
-
 bool fine_enough(const MeshDecoder& decoder, float error, const MeshLevel& level) {
   const auto wanted = static_cast<double>(level.share) * decoder.layout().faces;
   return decoder.complete() || (decoder.faces() >= wanted && (level.error < 0 || error <= level.error));
@@ -139,9 +126,9 @@ void drop_extensions(Json& json) {
 
 }  // namespace
 
-Result<Json> pack_json(const PackReader& pack) { return parse_json(chunk_of(pack.opening(), chunk_json)); }
+Result<Json> pack_json(const PackReader& pack) { return parse_json(glb_chunks(pack.opening()).json); }
 
-Bytes pack_bin(const PackReader& pack) { return chunk_of(pack.opening(), chunk_bin); }
+Bytes pack_bin(const PackReader& pack) { return glb_chunks(pack.opening()).bin; }
 
 Result<void> refine_document(Document& document, const PackRefinement& refinement) {
   LW_CHECK(refine_meshes(document, refinement));

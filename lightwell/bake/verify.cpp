@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "lightwell/bake/unpack.h"
+#include "lightwell/bake/verify_json.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/texture/stream.h"
@@ -67,27 +68,6 @@ Result<void> verify_stream(const PackReader& pack, size_t stream, uint64_t& bloc
     blocks++;
   }
   if (!decoder.complete()) return fail("", "is not complete after its last block");
-  return {};
-}
-
-// The JSON repeats the directory for people and other programs; it must not say anything else.
-Result<void> verify_json(const PackReader& pack) {
-  LW_TRY(json, pack_json(pack));
-  const Json& table = extension(json, "LIGHTWELL_streams");
-  const Directory& directory = pack.directory();
-  if (text(table, "id") != to_text(directory.id))
-    return fail("JSON", "LIGHTWELL_streams has another id than the directory");
-  const Json& streams = member(table, "streams");
-  if (streams.size() != directory.streams.size())
-    return fail("JSON", "LIGHTWELL_streams has another number of streams");
-  for (size_t i = 0; i < streams.size(); i++) {
-    const StreamEntry& entry = directory.streams[i];
-    if (text(streams[i], "kind") != to_text(entry.kind) || whole_number(member(streams[i], "codec")) != entry.codec ||
-        whole_number(member(streams[i], "offset")) != entry.first ||
-        whole_number(member(streams[i], "blocks")) != entry.blocks ||
-        whole_number(member(streams[i], "bytes")) != entry.length)
-      return fail("JSON", "LIGHTWELL_streams: stream " + std::to_string(i) + " differs from the directory");
-  }
   return {};
 }
 

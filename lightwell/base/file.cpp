@@ -19,6 +19,7 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
+// Inflates every member of the file, one behind the other (RFC 1952, 2.2).
 Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) return fail("gzip", "out of memory");
@@ -26,7 +27,7 @@ Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
   std::vector<uint8_t> bytes;
   std::vector<uint8_t> chunk(size_t(1) << 20);
   size_t at = 0;
-  for (int status = Z_OK; status != Z_STREAM_END;) {
+  for (bool more = true; more;) {
     if (stream.avail_in == 0 && at < packed.size()) {
       const size_t now = std::min<size_t>(packed.size() - at, size_t(1) << 30);
       stream.next_in = const_cast<Bytef*>(packed.data() + at);
@@ -35,13 +36,16 @@ Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
     }
     stream.next_out = chunk.data();
     stream.avail_out = static_cast<uInt>(chunk.size());
-    status = inflate(&stream, Z_NO_FLUSH);
+    const int status = inflate(&stream, Z_NO_FLUSH);
     if (status != Z_OK && status != Z_STREAM_END)
       return fail("gzip", status == Z_BUF_ERROR ? "the file ends too early" : "damaged data");
     const size_t produced = chunk.size() - stream.avail_out;
     if (bytes.size() + produced > limit)
       return fail("gzip", "inflates to more than " + std::to_string(limit) + " bytes");
     bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<ptrdiff_t>(produced));
+    if (status != Z_STREAM_END) continue;
+    more = stream.avail_in > 0 || at < packed.size();
+    inflateReset(&stream);
   }
   return bytes;
 }

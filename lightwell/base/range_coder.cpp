@@ -128,7 +128,7 @@ uint32_t RangeDecoder::raw(int count) {
     range_ >>= now;
     const uint32_t bits = std::min(code_ / range_, (1u << now) - 1);
     code_ -= bits * range_;
-    value = now == 32 ? bits : value << now | bits;
+    value = value << now | bits;
     normalize();
   }
   return value;

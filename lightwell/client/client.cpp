@@ -2,6 +2,7 @@
 #include "lightwell/client/client.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lightwell/client/download.h"
 #include "lightwell/client/refiner.h"
@@ -12,8 +13,8 @@ namespace lightwell {
 
 namespace {
 
-// For the buffers of all streams together: what a WebAssembly module may well have.
-constexpr uint64_t most_buffer_bytes = uint64_t(2) << 30;
+// For the buffers of all streams together, of the 4 GiB that a WebAssembly module may have.
+constexpr uint64_t most_buffer_bytes = uint64_t(3) << 30;
 
 }  // namespace
 
@@ -62,11 +63,12 @@ class Client::Machine {
         return take_failure();
       }
     completed_ = true;
+    requests_.stop();  // whether the file is still the same one does not matter any more
     return CompleteUpdate{};
   }
 
   void set_weight(uint32_t stream, float weight) {
-    if (stream < weights_.size() && weight >= 0) weights_[stream] = weight;
+    if (stream < weights_.size() && weight >= 0 && std::isfinite(weight)) weights_[stream] = weight;
   }
 
   ClientProgress progress() const {

@@ -55,7 +55,8 @@ class Client {
   /// It got no response, or the connection broke.
   void fail(uint32_t id, double now);
 
-  /// Decodes at most one block (about a millisecond), or fills a light grid. False when there was nothing to do.
+  /// Decodes at most one block, or fills a light grid: a few milliseconds for what `lightwell bake` writes. False when
+  /// there was nothing to do.
   bool work();
   /// The next piece to hand over, with at most about `budget` bytes (a light grid, texture or opening comes whole);
   /// nothing when there is none.
@@ -66,9 +67,9 @@ class Client {
   /// passes between two calls.
   double wake() const;
 
-  /// How much a stream matters to the present picture, 1 at first: error of `weight` times the size is as bad. Meshes:
-  /// pixels a metre times the share of the picture that the object covers; light: the visible share of the grid. 0 puts
-  /// it last.
+  /// How much a stream of any kind matters to the present picture, 1 at first: what a run of its blocks is worth is the
+  /// share of the stream's first error that it takes away, times this weight. Finite and not negative, else ignored, as
+  /// before the opening has been taken; 0 puts the stream last.
   void set_weight(uint32_t stream, float weight);
   /// Takes another strategy from the next request on.
   void set_strategy(Strategy strategy);

@@ -44,9 +44,10 @@ class Download {
   std::pair<uint64_t, uint64_t> wanted_head() const;
   /// The length of the file, 0 while unknown.
   uint64_t file_length() const { return size_.file_length; }
-  /// True when a block was damaged and the directory should be read again, to learn whether the file is still the same
-  /// one.
+  /// True when a block was damaged, or somebody called suspect(), and the directory should be read again, to learn
+  /// whether the file is still the same one.
   bool suspicious() const { return suspicious_; }
+  void suspect() { suspicious_ = true; }
   /// The bytes to ask for in that case.
   std::pair<uint64_t, uint64_t> wanted_witness() const;
   /// True when the directory that the server has now is another one.

@@ -12,7 +12,7 @@ class LightRefiner final : public Refiner {
       : stream_(stream),
         fill_(fill),
         decoder_(std::move(decoder)),
-        atlas_(decoder_.layout().shape, AtlasForm::patched, decoder_.layout().normal_offset, decoder_.layout().scale) {}
+        atlas_(decoder_.layout().shape, decoder_.layout().normal_offset, decoder_.layout().scale) {}
 
   Result<void> append(Bytes payload) override { return decoder_.append(payload); }
 

@@ -61,7 +61,7 @@ void Requests::respond(uint32_t id, const ResponseHead& head, double now) {
   if (request == open_.end()) return;
   request->second.heard = now;
   if (head.status != 200 && head.status != 206) return respond_refused(request, head, now);
-  if (!same_file(head.etag)) return;
+  note_etag(head.etag);
   if (head.status == 206) return respond_partial(request, head.content_range, now);
   respond_whole(request);
 }
@@ -70,7 +70,7 @@ void Requests::respond_partial(Open::iterator request, std::string_view content_
   if (content_range.empty()) return;  // not readable from another origin: it will be what was asked for
   const std::optional<ContentRange> range = ContentRange::parse(content_range);
   if (!range || range->first != request->second.cursor.position) return abandon(request, now);
-  if (range->total) same_length(*range->total);
+  if (range->total) check_length(*range->total);
 }
 
 /// The server does not know ranges: its one response brings everything, and the others would bring it again.
@@ -111,7 +111,7 @@ void Requests::receive(uint32_t id, Bytes bytes, double now) {
   request.gained += *gained;
   if (*gained > 0) line_.succeeded();
   if (!download_.opened() && request.cursor.position > download_.wanted_head().first) return abandon(found, now);
-  if (length_ != 0) same_length(length_);
+  if (length_ != 0) check_length(length_);
 }
 
 void Requests::finish(uint32_t id, double now) {
@@ -143,27 +143,24 @@ void Requests::drop_silent(double now) {
   }
 }
 
-bool Requests::same_length(uint64_t length) {
+void Requests::check_length(uint64_t length) {
   const uint64_t before = length_ != 0 ? length_ : length;
   length_ = length;
   const uint64_t stated = download_.file_length();
-  if (before != length) {
+  if (before != length)
     give_up(FailureUpdate::Reason::replaced, "the file was replaced while it was read: its length has changed");
-  } else if (stated != 0 && stated != length && download_.opened()) {
+  else if (stated != 0 && stated != length && download_.opened())
     give_up(FailureUpdate::Reason::unreadable,
             "the file has " + std::to_string(length) + " bytes, but should have " + std::to_string(stated));
-  } else {
-    return true;
-  }
-  return false;
 }
 
-bool Requests::same_file(std::string_view etag) {
-  if (etag.empty()) return true;
+/// Servers that share the work give equal files ETags of their own. So another ETag is a reason to look once whether
+/// the file is still the same; later ones say nothing, and the blocks' checks have to.
+void Requests::note_etag(std::string_view etag) {
+  if (etag.empty() || etags_differ_) return;
   if (etag_.empty()) etag_ = etag;
-  if (etag_ == etag) return true;
-  give_up(FailureUpdate::Reason::replaced, "the file was replaced while it was read: its ETag has changed");
-  return false;
+  etags_differ_ = etag_ != etag;
+  if (etags_differ_) download_.suspect();
 }
 
 void Requests::give_up(FailureUpdate::Reason reason, std::string message) {

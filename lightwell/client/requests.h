@@ -54,9 +54,9 @@ class Requests {
   void respond_partial(Open::iterator request, std::string_view content_range, double now);
   void respond_whole(Open::iterator request);
   void respond_refused(Open::iterator request, const ResponseHead& head, double now);
-  /// False, and the end of everything, when the file has not this length any more.
-  bool same_length(uint64_t length);
-  bool same_file(std::string_view etag);
+  /// Gives up when the file has not this length any more.
+  void check_length(uint64_t length);
+  void note_etag(std::string_view etag);
   /// Forgets a request that is over; a failed one makes the next ones wait.
   void end(Open::iterator request, bool failed, double now);
   /// Cancels a request that failed.
@@ -72,7 +72,8 @@ class Requests {
   Open open_;
   std::vector<uint32_t> cancels_;
   std::optional<uint32_t> whole_;  ///< the one response that brings the whole file
-  std::string etag_;
+  std::string etag_;               ///< the first one
+  bool etags_differ_ = false;
   uint64_t length_ = 0;  ///< of the file, as the server says; 0 while unknown
   bool stopped_ = false;
   std::optional<FailureUpdate> failure_;

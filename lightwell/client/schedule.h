@@ -8,6 +8,7 @@
 
 namespace lightwell {
 
+/// Which streams go first. The numbers are those of client/wasm.h.
 enum class Strategy : uint8_t {
   interleave,  ///< whatever takes most of the error away per byte
   geometry,    ///< all meshes, then textures, then light

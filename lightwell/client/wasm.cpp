@@ -79,8 +79,7 @@ uint32_t LW_EXPORT(lw_abi_version)() { return abi_version; }
 uint32_t LW_EXPORT(lw_create)(uint32_t strategy, uint32_t fill, uint32_t seed) {
   ClientOptions options;
   options.strategy = strategy_of(strategy);
-  constexpr std::array fills = {Fill::push_pull, Fill::push_pull_smooth, Fill::none};
-  options.fill = fills[std::min<size_t>(fill, fills.size() - 1)];
+  options.fill = static_cast<Fill>(std::min(fill, static_cast<uint32_t>(Fill::none)));
   options.seed = seed;
   return address(new Client(options));
 }

@@ -24,9 +24,11 @@ uint8_t* lw_input(uint32_t length);
 /// The record: 32 words of 32 bits, little-endian, where functions below leave their results.
 const uint32_t* lw_record();
 
+// clang-format off
 /// The next thing the client wants, 0 for nothing; call until it returns 0.
-///   1 ask: [0] request, [1] first byte, [2] last byte (inclusive): fetch with the header "Range: bytes=first-last"
-///   only 2 cancel: [0] request: abort it and report nothing more of it
+///   1 ask:     [0] request, [1] first byte, [2] last byte (inclusive): fetch with only the header "Range: bytes=first-last"
+///   2 cancel:  [0] request: abort it and report nothing more of it
+// clang-format on
 uint32_t lw_next(uint32_t client, double now);
 /// The response's head. The input holds the Content-Range header's text and behind it the ETag's; a length is 0 when
 /// the header is absent or may not be read.
@@ -44,25 +46,34 @@ double lw_wake(uint32_t client);
 /// Decodes at most one block, or fills a light grid; 0 when there was nothing to do. A mesh takes no further block
 /// while a batch of it is half taken: call again after lw_take.
 uint32_t lw_work(uint32_t client);
+// clang-format off
 /// The next update, of at most about `budget` bytes, 0 for none; apply them in the order in which they come.
-///   1 opening:  [0] pointer, [1] length: a GLB for GLTFLoader
-///   2 mesh:     [0] stream, [1] vertices, [2] faces, [3] number of attributes, then a word for each:
-///               semantic (0 position, 1 normal, 2 texcoord_0, 3 texcoord_1, 4 color) | component << 8 (0 i8, 1 u8, 2
-///               i16, 3 u16, 4 f32) | numbers a vertex << 16 | stride in bytes << 20 | normalized << 31
-///   3 range:    [0] stream, [1] buffer (an attribute of the mesh, or 255: indices), [2] offset in bytes, [3] pointer,
-///   [4] length 4 draw:     [0] stream, [1] vertices, [2] faces: draw 3 * faces indices from now on 5 light:    [0]
-///   stream, [1] width, [2] height, [3] depth, [4] nodes received, [5] pointer, [6] length: RGBA16F texels 6 texture:
-///   [0] stream, [1] format (0 PNG, 1 JPEG, 2 WebP), [2] width, [3] height, [4] pointer, [5] length: an image file 7
-///   complete 8 failure:  [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
+///   1 opening:   [0] pointer, [1] length: a GLB for GLTFLoader
+///   2 mesh:      [0] stream, [1] vertices, [2] faces, [3] number of attributes, then a word for each:
+///                semantic (0 position, 1 normal, 2 texcoord_0, 3 texcoord_1, 4 color)
+///                | component << 8 (0 i8, 1 u8, 2 i16, 3 u16, 4 f32)
+///                | numbers a vertex << 16 | stride in bytes << 20 | normalized << 31
+///   3 range:     [0] stream, [1] buffer (an attribute of the mesh, or 255: indices), [2] offset in bytes,
+///                [3] pointer, [4] length
+///   4 draw:      [0] stream, [1] vertices, [2] faces: draw 3 * faces indices from now on
+///   5 light:     [0] stream, [1] width, [2] height, [3] depth, [4] nodes received, [5] pointer, [6] length: RGBA16F texels
+///   6 texture:   [0] stream, [1] format (0 PNG, 1 JPEG, 2 WebP), [2] width, [3] height, [4] pointer, [5] length:
+///                an image file
+///   7 complete
+///   8 failure:   [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
+// clang-format on
 uint32_t lw_take(uint32_t client, uint32_t budget);
 
-/// How much a stream matters to the present picture (Client::set_weight).
+/// How much a stream of any kind matters to the present picture, 1 at first: what a run of its blocks is worth is the
+/// share of the stream's first error that it takes away, times this weight. Good from the opening update on.
 void lw_set_weight(uint32_t client, uint32_t stream, float weight);
 /// Takes another strategy, numbered as for lw_create, from the next request on.
 void lw_set_strategy(uint32_t client, uint32_t strategy);
 
+// clang-format off
 /// Progress. Byte counts are below 4 GiB:
-///   [0] bytes, [1] of, [2] geometry bytes, [3] of, [4] light bytes, [5] of, [6] faces, [7] of, [8] nodes, [9] of, [10]
-///   requests, [11] consecutive failures (not 0 while the server is away)
+///   [0] bytes, [1] of, [2] geometry bytes, [3] of, [4] light bytes, [5] of, [6] faces, [7] of, [8] nodes, [9] of,
+///   [10] requests, [11] consecutive failures (not 0 while the server is away)
+// clang-format on
 void lw_progress(uint32_t client);
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lightwell/base/file.h"
+#include "lightwell/base/hex.h"
 
 namespace lightwell {
 namespace {
@@ -39,13 +40,6 @@ Result<std::vector<uint8_t>> decode_base64(std::string_view text) {
     bytes.push_back(static_cast<uint8_t>(bits >> count));
   }
   return bytes;
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
 }
 
 /// Percent-encoding undone; a % that begins no code stands for itself.

@@ -10,6 +10,7 @@ namespace lightwell {
 namespace {
 
 constexpr int sub_volumes = 7;
+constexpr float smallest_normal_half = 0x1p-14f;
 
 // The constants of three.js's formula.
 constexpr float band0 = 0.886227f;
@@ -39,8 +40,8 @@ std::array<Vec3f, 9> spherical_harmonics(const Moments& moments) {
           (square(0) - square(1)) * (0.5f / difference)};
 }
 
-LightAtlas::LightAtlas(const GridShape& shape, AtlasForm atlas_form, float normal_offset, float light_scale)
-    : nodes(shape.nodes), form(atlas_form), scale(light_scale) {
+LightAtlas::LightAtlas(const GridShape& shape, float normal_offset, float light_scale)
+    : nodes(shape.nodes), scale(light_scale) {
   halves.resize(shape.count() / static_cast<size_t>(nodes[2]) * static_cast<size_t>(depth()) * 4);
   const Vec3f ratio = shape.cell / max_component(shape.cell);
   header_ = {{ratio[0], ratio[1], ratio[2], normal_offset}};
@@ -48,49 +49,37 @@ LightAtlas::LightAtlas(const GridShape& shape, AtlasForm atlas_form, float norma
 }
 
 void LightAtlas::write_header() {
-  if (form != AtlasForm::patched) return;
   for (int lane = 0; lane < 4; lane++) halves[static_cast<size_t>(lane)] = to_half(header_[lane]);
   std::fill_n(halves.begin() + 4, 4, uint16_t(0));
 }
 
-std::vector<LightAtlas::Rows> LightAtlas::update(const LightGrid& grid, int y, int rows, int z) {
-  LW_ASSERT(grid.shape.nodes == nodes && y >= 0 && rows >= 0 && y + rows <= nodes[1] && z >= 0 && z < nodes[2]);
-  std::vector<Rows> touched;
-  for (int t = 0; t < sub_volumes; t++) {
-    const int data = t * (nodes[2] + 2) + 1 + z;
-    touched.push_back({y, rows, data, 0});
-    if (z == 0) touched.push_back({y, rows, data - 1, 0});
-    if (z == nodes[2] - 1) touched.push_back({y, rows, data + 1, 0});
-  }
-  const size_t row = static_cast<size_t>(nodes[0]) * 4;
-  for (Rows& piece : touched) {
-    piece.first_half =
-        (static_cast<size_t>(piece.slice) * static_cast<size_t>(nodes[1]) + static_cast<size_t>(y)) * row;
-  }
-  const size_t first_node = grid.shape.index({{0, y, z}});
-  const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(nodes[0]);
-  for (size_t i = 0; i < count; i++) {
-    const std::array<uint16_t, 28> texels = channels_of(grid.moments[first_node + i], grid.valid[first_node + i]);
-    for (const Rows& piece : touched) {
-      const auto sub_volume = static_cast<size_t>(piece.slice / (nodes[2] + 2));
-      for (size_t lane = 0; lane < 4; lane++) halves[piece.first_half + i * 4 + lane] = texels[sub_volume * 4 + lane];
+void LightAtlas::update(const LightGrid& grid) {
+  LW_ASSERT(grid.shape.nodes == nodes);
+  const size_t layer = static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]);
+  for (size_t i = 0; i < grid.moments.size(); i++) {
+    const std::array<uint16_t, 28> channels = channels_of(grid.moments[i], grid.valid[i]);
+    const auto z = static_cast<int>(i / layer);
+    for (int t = 0; t < sub_volumes; t++) {
+      const auto write = [&](int slice) {
+        const size_t texel = static_cast<size_t>(slice) * layer + i % layer;
+        std::copy_n(&channels[static_cast<size_t>(4 * t)], 4, &halves[4 * texel]);
+      };
+      const int slice = t * (nodes[2] + 2) + 1 + z;
+      write(slice);
+      if (z == 0) write(slice - 1);
+      if (z == nodes[2] - 1) write(slice + 1);
     }
   }
   write_header();
-  return touched;
-}
-
-void LightAtlas::update(const LightGrid& grid) {
-  for (int z = 0; z < nodes[2]; z++) update(grid, 0, nodes[1], z);
 }
 
 std::array<uint16_t, 28> LightAtlas::channels_of(const Moments& moments, bool valid) const {
-  const float weight = form == AtlasForm::patched ? node_weight(valid) * scale : 1.0f;
+  const float weight = std::max(node_weight(valid) * scale, smallest_normal_half);
   const std::array<Vec3f, 9> coefficients = spherical_harmonics(moments);
-  std::array<uint16_t, 28> halves_of_node;
-  for (size_t c = 0; c < 27; c++) halves_of_node[c] = to_half(coefficients[c / 3][static_cast<int>(c % 3)] * weight);
-  halves_of_node[27] = to_half(weight);
-  return halves_of_node;
+  std::array<uint16_t, 28> channels;
+  for (size_t c = 0; c < 27; c++) channels[c] = to_half(coefficients[c / 3][static_cast<int>(c % 3)] * weight);
+  channels[27] = to_half(weight);
+  return channels;
 }
 
 }  // namespace lightwell

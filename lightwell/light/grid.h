@@ -8,6 +8,16 @@
 
 namespace lightwell {
 
+/// How many nodes a grid of so many on each axis has, and the number of one of them: x fastest, z slowest.
+inline size_t node_count(Vec3i nodes) {
+  return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]);
+}
+inline size_t node_index(Vec3i nodes, Vec3i n) {
+  return static_cast<size_t>(n[0]) +
+         static_cast<size_t>(nodes[0]) *
+             (static_cast<size_t>(n[1]) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(n[2]));
+}
+
 /// The nodes of a regular grid over an axis-parallel box: node (i, j, k) stands at lo + (i, j, k) * cell. At least two
 /// nodes an axis; nodes are numbered x fastest, z slowest.
 struct GridShape {
@@ -15,14 +25,8 @@ struct GridShape {
   Vec3f cell = Vec3f::filled(1);  ///< distance between neighbours on each axis, metres
   Vec3i nodes{{2, 2, 2}};
 
-  size_t count() const {
-    return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]);
-  }
-  size_t index(Vec3i n) const {
-    return static_cast<size_t>(n[0]) +
-           static_cast<size_t>(nodes[0]) *
-               (static_cast<size_t>(n[1]) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(n[2]));
-  }
+  size_t count() const { return node_count(nodes); }
+  size_t index(Vec3i n) const { return node_index(nodes, n); }
   Vec3i node(size_t index) const;
   Vec3f position(Vec3i n) const { return lo + cell * n.cast<float>(); }
   Vec3f hi() const { return position(nodes - Vec3i::filled(1)); }

@@ -22,15 +22,8 @@ struct Level {
   std::vector<Value> values;
   std::vector<float> weights;  // 0 where unknown
 
-  explicit Level(Vec3i n) : nodes(n), values(count()), weights(count(), 0.0f) {}
-  size_t count() const {
-    return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]);
-  }
-  size_t index(int x, int y, int z) const {
-    return static_cast<size_t>(x) +
-           static_cast<size_t>(nodes[0]) *
-               (static_cast<size_t>(y) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(z));
-  }
+  explicit Level(Vec3i n) : nodes(n), values(node_count(n)), weights(values.size(), 0.0f) {}
+  size_t index(int x, int y, int z) const { return node_index(nodes, {{x, y, z}}); }
   bool single() const { return nodes == Vec3i::filled(1); }
 };
 

@@ -8,11 +8,11 @@
 
 namespace lightwell {
 
-/// What stands in for nodes that have not arrived.
-enum class Fill {
-  none,              ///< no light
-  push_pull,         ///< interpolation from a pyramid of the known nodes
-  push_pull_smooth,  ///< the same, each level's filled values smoothed (S08, Figure 7)
+/// What stands in for nodes that have not arrived. The numbers are those of client/wasm.h.
+enum class Fill : uint8_t {
+  push_pull = 0,         ///< interpolation from a pyramid of the known nodes
+  push_pull_smooth = 1,  ///< the same, each level's filled values smoothed (S08, Figure 7)
+  none = 2               ///< no light
 };
 
 /// Fills the nodes of `grid` whose entry in `known` (a byte a node) is 0. Known nodes never change, a constant field

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "lightwell/base/power_of_two.h"
+
 namespace lightwell {
 namespace {
 
@@ -13,9 +15,6 @@ constexpr int largest_exponent = 31;
 // A mantissa m with exponent e stands for m * 2^(e - 24).
 constexpr int exponent_bias = 24;
 constexpr float largest_rgb9e5 = 65408;  // 511 * 2^(31 - 24)
-
-// 2^power for any power that a normal float holds.
-float power_of_two(int power) { return std::bit_cast<float>(static_cast<uint32_t>(power + 127) << 23); }
 
 float representable(float value) { return value > 0 ? std::min(value, largest_rgb9e5) : 0.0f; }
 
@@ -28,7 +27,7 @@ int mantissa(float value, int exponent) {
 constexpr std::array<std::array<size_t, 2>, 3> axis_pairs{{{0, 1}, {0, 2}, {1, 2}}};
 
 // (M_a + M_b) / 2: the bound of |S_ab|.
-Vec3f shear_bound(const std::array<Vec3f, 9>& m, const std::array<size_t, 2>& axes) {
+Vec3f mixed_bound(const std::array<Vec3f, 9>& m, const std::array<size_t, 2>& axes) {
   return (m[2 * axes[0]] + m[2 * axes[0] + 1] + m[2 * axes[1]] + m[2 * axes[1] + 1]) * 0.5f;
 }
 
@@ -61,13 +60,13 @@ Vec3f decode_rgb9e5(uint32_t bits) {
 
 void MomentsRecord::write(ByteWriter& writer) const {
   for (const uint32_t e : irradiance) writer.u32(e);
-  for (const int8_t s : shear) writer.u8(static_cast<uint8_t>(s));
+  for (const int8_t s : mixed) writer.u8(static_cast<uint8_t>(s));
 }
 
 MomentsRecord MomentsRecord::read(ByteReader& reader) {
   MomentsRecord record;
   for (uint32_t& e : record.irradiance) e = reader.u32();
-  for (int8_t& s : record.shear) s = static_cast<int8_t>(reader.u8());
+  for (int8_t& s : record.mixed) s = static_cast<int8_t>(reader.u8());
   return record;
 }
 
@@ -79,12 +78,12 @@ MomentsRecord encode_record(const Moments& moments, bool valid) {
     decoded[d] = decode_rgb9e5(record.irradiance[d]);
   }
   for (size_t pair = 0; pair < 3; pair++) {
-    const Vec3f bound = shear_bound(decoded, axis_pairs[pair]);
+    const Vec3f bound = mixed_bound(decoded, axis_pairs[pair]);
     for (int c = 0; c < 3; c++) {
-      record.shear[3 * pair + static_cast<size_t>(c)] = encode_share(moments.m[6 + pair][c], bound[c]);
+      record.mixed[3 * pair + static_cast<size_t>(c)] = encode_share(moments.m[6 + pair][c], bound[c]);
     }
   }
-  if (!valid) record.shear[0] = MomentsRecord::invalid_mark;
+  if (!valid) record.mixed[0] = MomentsRecord::invalid_mark;
   return record;
 }
 
@@ -92,11 +91,11 @@ Moments decode_record(const MomentsRecord& record) {
   Moments moments;
   for (size_t d = 0; d < 6; d++) moments.m[d] = decode_rgb9e5(record.irradiance[d]);
   for (size_t pair = 0; pair < 3; pair++) {
-    const Vec3f bound = shear_bound(moments.m, axis_pairs[pair]);
+    const Vec3f bound = mixed_bound(moments.m, axis_pairs[pair]);
     for (int c = 0; c < 3; c++) {
       const size_t entry = 3 * pair + static_cast<size_t>(c);
       const bool marked = entry == 0 && !record.valid();
-      const int share = marked ? 0 : std::max<int>(record.shear[entry], -127);
+      const int share = marked ? 0 : std::max<int>(record.mixed[entry], -127);
       moments.m[6 + pair][c] = static_cast<float>(share) * bound[c] / 127;
     }
   }

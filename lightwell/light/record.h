@@ -20,12 +20,12 @@ Vec3f decode_rgb9e5(uint32_t bits);
 /// -128 in its first signed byte, and 0 for the red S_xy of its fill.
 struct MomentsRecord {
   std::array<uint32_t, 6> irradiance{};
-  std::array<int8_t, 9> shear{};
+  std::array<int8_t, 9> mixed{};
 
   static constexpr size_t bytes = 33;
   static constexpr int8_t invalid_mark = -128;
 
-  bool valid() const { return shear[0] != invalid_mark; }
+  bool valid() const { return mixed[0] != invalid_mark; }
   bool operator==(const MomentsRecord&) const = default;
 
   void write(ByteWriter& writer) const;

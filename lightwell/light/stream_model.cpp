@@ -122,12 +122,12 @@ RecordExpectation RecordField::expect(const KnownNeighbours& neighbours, bool va
       const SharedExponent value = SharedExponent::of(record.irradiance[d]);
       for (size_t c = 0; c < 3; c++) sum.irradiance[d][c] += (int64_t(value.mantissa[c]) << value.exponent) * weight;
     }
-    for (size_t i = 0; i < 9; i++) sum.shear[i] += (i > 0 || record.valid() ? record.shear[i] : 0) * weight;
+    for (size_t i = 0; i < 9; i++) sum.mixed[i] += (i > 0 || record.valid() ? record.mixed[i] : 0) * weight;
   }
   for (auto& direction : sum.irradiance) {
     for (int64_t& channel : direction) channel = (channel + total / 2) / total;
   }
-  for (int& entry : sum.shear) entry = (entry + (entry < 0 ? -total : total) / 2) / total;
+  for (int& entry : sum.mixed) entry = (entry + (entry < 0 ? -total : total) / 2) / total;
   return sum;
 }
 

@@ -35,7 +35,7 @@ std::array<size_t, 8> corner_nodes(const GridShape& shape);
 /// record.
 struct RecordExpectation {
   std::array<std::array<int64_t, 3>, 6> irradiance{};
-  std::array<int, 9> shear{};
+  std::array<int, 9> mixed{};
 };
 
 /// The known nodes nearest to a place, each with an integer weight falling with the fourth power of the distance.
@@ -100,12 +100,12 @@ class RecordCoder {
   uint32_t code_irradiance(Io& io, uint32_t bits, const std::array<int64_t, 3>& expected, size_t direction,
                            Recent& recent);
   template <typename Io>
-  int8_t code_shear(Io& io, int8_t value, int expected, size_t entry, Recent& recent);
+  int8_t code_mixed(Io& io, int8_t value, int expected, size_t entry, Recent& recent);
 
   std::array<AdaptiveBit, 3> invalid_;
   std::array<AdaptiveInteger, 6> exponent_;
   std::array<std::array<AdaptiveInteger, 8>, 3> mantissa_;
-  std::array<std::array<AdaptiveInteger, 8>, 3> shear_;
+  std::array<std::array<AdaptiveInteger, 8>, 3> mixed_;
 };
 
 /// The exponent that RGB9E5 would share among the expected values.
@@ -124,10 +124,10 @@ void RecordCoder::code(Io& io, MomentsRecord& record, const RecordField& field, 
   for (size_t d = 0; d < 6; d++) {
     record.irradiance[d] = code_irradiance(io, record.irradiance[d], expected.irradiance[d], d, recent);
   }
-  if (!valid) record.shear[0] = MomentsRecord::invalid_mark;
-  Recent recent_shear;
+  if (!valid) record.mixed[0] = MomentsRecord::invalid_mark;
+  Recent recent_mixed;
   for (size_t i = valid ? 0 : 1; i < 9; i++) {
-    record.shear[i] = code_shear(io, record.shear[i], expected.shear[i], i, recent_shear);
+    record.mixed[i] = code_mixed(io, record.mixed[i], expected.mixed[i], i, recent_mixed);
   }
 }
 
@@ -159,8 +159,8 @@ uint32_t RecordCoder::code_irradiance(Io& io, uint32_t bits, const std::array<in
 }
 
 template <typename Io>
-int8_t RecordCoder::code_shear(Io& io, int8_t value, int expected, size_t entry, Recent& recent) {
-  const int residual = io.integer(shear_[entry % 3][recent.context()], value - expected);
+int8_t RecordCoder::code_mixed(Io& io, int8_t value, int expected, size_t entry, Recent& recent) {
+  const int residual = io.integer(mixed_[entry % 3][recent.context()], value - expected);
   const auto decoded = static_cast<int>(std::clamp<int64_t>(int64_t(expected) + residual, -127, 127));
   recent.learn(decoded - expected);
   return static_cast<int8_t>(decoded);

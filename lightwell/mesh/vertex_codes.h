@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
+#include "lightwell/base/power_of_two.h"
 #include "lightwell/base/vector.h"
 
 namespace lightwell {
@@ -24,9 +24,6 @@ struct Lattice {
   int32_t code(float value) const;
   /// The code of a value that is known to be on the lattice and within the limit.
   int32_t exact_code(float value) const { return static_cast<int32_t>(value * power_of_two(-exponent)); }
-
- private:
-  static float power_of_two(int e) { return std::bit_cast<float>(static_cast<uint32_t>(e + 127) << 23); }
 };
 
 /// A unit vector on the octahedral grid of 1023 x 1023 directions (10 bits an axis, Meyer et al. 2010), -511 ... 511.

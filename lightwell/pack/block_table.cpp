@@ -10,7 +10,6 @@ namespace lightwell {
 namespace {
 
 constexpr uint32_t extents_per_page = rows_per_page + 1;  // 64 blocks and the page behind them
-constexpr uint32_t row_bytes = 12;
 
 /// What so many blocks without a row take at least: their rows, a check for each page, a byte and a check for each
 /// block.

@@ -57,7 +57,7 @@ class BlockTable {
   std::vector<uint64_t> begins_;  ///< where extent i begins; one more entry: where the last known one ends
 };
 
-/// Reads `count` rows (12 bytes each: length, adds, error); empty when one breaks a limit or the bytes are too few.
+/// Reads `count` rows (length, adds, error); empty when one breaks a limit or the bytes are too few.
 std::vector<BlockRow> read_rows(ByteReader& reader, uint32_t count);
 void write_rows(ByteWriter& writer, std::span<const BlockRow> rows);
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr uint32_t head_bytes = 4 + 4 + 16 + 4 + 4 + 4;
 constexpr uint32_t stream_head_bytes = 4 + 4 + 4 + 4 + 4 + 4;
-constexpr uint32_t row_bytes = 12;
 
 std::string name_of(size_t stream) { return "stream " + std::to_string(stream); }
 

@@ -14,6 +14,7 @@ namespace lightwell {
 /// Limits of the container (docs/format.md): a file beyond one of them is refused before anything is allocated for it.
 constexpr uint32_t format_version = 0;
 constexpr uint32_t rows_per_page = 64;
+constexpr uint32_t row_bytes = 12;  ///< a row of a block table
 constexpr uint32_t block_check_bytes = 4;
 constexpr uint32_t max_block_bytes = 16u << 20;  ///< a block with its check
 constexpr uint32_t max_directory_bytes = 64u << 20;

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/pack/self_contained.h"
 
+#include "lightwell/base/hex.h"
+
 namespace lightwell {
 namespace {
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 /// Reads the string that begins behind text[at - 1] == '"' and moves `at` behind its end. Escaped characters that are
 /// not ASCII become '?': no key that matters has one.
@@ -39,17 +34,27 @@ size_t skip_space(std::string_view text, size_t at) {
   return found == std::string_view::npos ? text.size() : found;
 }
 
+/// What a glTF loader fetches: buffers[i].uri and images[i].uri.
+bool is_fetched(std::string_view section, std::string_view key, int depth) {
+  return depth == 3 && key == "uri" && (section == "buffers" || section == "images");
+}
+
 }  // namespace
 
 Result<void> check_self_contained(std::string_view json) {
-  size_t at = 0;
-  while ((at = json.find('"', at)) != std::string_view::npos) {
-    at++;
-    const std::string key = read_string(json, at);
+  int depth = 0;        // of objects and arrays round the place; 1 in the root object
+  std::string section;  // the root object's key that the place belongs to
+  for (size_t at = 0; at < json.size();) {
+    const char c = json[at++];
+    if (c == '{' || c == '[') depth++;
+    if (c == '}' || c == ']') depth--;
+    if (c != '"') continue;
+    const std::string text = read_string(json, at);
     const size_t colon = skip_space(json, at);
-    if (key != "uri" || colon >= json.size() || json[colon] != ':') continue;
+    if (colon >= json.size() || json[colon] != ':') continue;
+    if (depth == 1) section = text;
     const size_t value = skip_space(json, colon + 1);
-    if (value >= json.size() || json[value] != '"') continue;
+    if (!is_fetched(section, text, depth) || value >= json.size() || json[value] != '"') continue;
     at = value + 1;
     const std::string uri = read_string(json, at);
     if (!uri.starts_with("data:")) return fail("opening", "refers to another file: " + uri.substr(0, 80));

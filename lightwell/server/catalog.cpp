@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "lightwell/base/hex.h"
 #include "lightwell/pack/reader.h"
 
 namespace lightwell {
@@ -11,13 +12,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view pack_prefix = "/packs/";
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
 
 /// Undoes percent encoding (RFC 3986, 2.1). Nothing when it is broken or hides a zero byte.
 std::optional<std::string> decode_percent(std::string_view text) {

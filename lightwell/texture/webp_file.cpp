@@ -4,12 +4,23 @@
 #include "lightwell/texture/image_file.h"
 
 namespace lightwell {
+namespace {
+
+// One colour takes no bits a pixel in a lossless file, so that its header may claim any size. What needs more memory
+// than this many pixels must have bytes to show for it, as every PNG has.
+constexpr uint64_t free_pixels = uint64_t(1) << 24;
+constexpr uint64_t pixels_per_byte = 1024;
+
+}  // namespace
 
 Result<Image> read_webp(Bytes file) {
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK) return fail("WebP", "damaged header");
   if (features.has_animation) return fail("WebP", "is an animation");
   LW_CHECK(check_image_size(static_cast<uint64_t>(features.width), static_cast<uint64_t>(features.height)));
+  const uint64_t pixels = static_cast<uint64_t>(features.width) * static_cast<uint64_t>(features.height);
+  if (pixels > free_pixels + file.size() * pixels_per_byte)
+    return fail("WebP", "claims more pixels than it has bytes for");
   Image image{features.width, features.height, features.has_alpha ? 4 : 3, {}};
   const size_t stride = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
   image.pixels.resize(stride * static_cast<size_t>(image.height));

@@ -10,6 +10,8 @@
 #include "lightwell/bake/verify.h"
 #include "lightwell/base/random.h"
 #include "lightwell/mesh/quantize.h"
+#include "lightwell/pack/opening.h"
+#include "lightwell/pack/writer.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/texture/image_file.h"
@@ -243,6 +245,14 @@ TEST(MakePack, KeepsNamesExtrasAndCameras) {
                json["extensionsRequired"].dump().find("LIGHTWELL") != std::string::npos);
 }
 
+// A page of a museum in `extras` is no file that anybody fetches.
+TEST(MakePack, TakesWhatAClientTakes) {
+  Document document = room();
+  document.json["asset"]["extras"]["uri"] = "https://museum.example/1";
+  const Packed packed = pack(std::move(document));
+  EXPECT_TRUE(verify_pack(reader_of(packed.file)).errors.empty());
+}
+
 TEST(MakePack, StreamsImages) {
   Document document = room();
   Image noise{128, 128, 3, {}};
@@ -278,6 +288,47 @@ TEST(MakePack, GivesTheSameBytesForAnyNumberOfThreads) {
   }
   EXPECT_EQ(files[0], files[1]);
   EXPECT_EQ(files[0], files[2]);
+}
+
+// The JSON changed in one digit, in a file whose checks are right otherwise.
+TEST(VerifyPack, HoldsTheJsonAgainstTheStreams) {
+  const Packed packed = pack(room());
+  const PackReader reader = reader_of(packed.file);
+  const auto with_json = [&](const std::string& pointer, const Json& value) {
+    Json json = pack_json(reader).value();
+    EXPECT_TRUE(json.contains(Json::json_pointer(pointer))) << pointer;
+    json[Json::json_pointer(pointer)] = value;
+    const GlbChunks chunks = glb_chunks(reader.opening());
+    std::vector<PackStream> streams;
+    for (size_t i = 0; i < reader.directory().streams.size(); i++) {
+      const StreamEntry& entry = reader.directory().streams[i];
+      streams.push_back({entry.kind, entry.codec, entry.error, entry.parameters, {}});
+      for (uint32_t block = 0; block < entry.blocks; block++)
+        streams[i].blocks.push_back(
+            {reader.block(i, block).value(), reader.rows(i)[block].adds, reader.rows(i)[block].error});
+    }
+    return PackWriter::create({chunks.bin.begin(), chunks.bin.end()}, std::move(streams))->finish(json.dump()).value();
+  };
+  const auto errors = [&](const std::string& pointer, const Json& value) {
+    const std::vector<uint8_t> file = with_json(pointer, value);
+    return verify_pack(reader_of(file)).errors.size();
+  };
+  EXPECT_EQ(errors("/asset/version", "2.0"), 0u);
+  const std::string grid = "/extensions/LIGHTWELL_light_grids/grids/0/";
+  const Json json = pack_json(reader).value();
+  size_t streamed = 0;
+  while (!json["meshes"][streamed]["primitives"][0].contains("extensions")) streamed++;
+  const std::string mesh =
+      "/meshes/" + std::to_string(streamed) + "/primitives/0/extensions/LIGHTWELL_progressive_mesh/";
+  EXPECT_EQ(errors(grid + "min/1", 7.5), 1u);
+  EXPECT_EQ(errors(grid + "cell/0", 0.25), 1u);
+  EXPECT_EQ(errors(grid + "nodes/2", 99), 1u);
+  EXPECT_EQ(errors(grid + "normalOffset", 0.25), 1u);
+  EXPECT_EQ(errors(mesh + "vertices", 1), 1u);
+  EXPECT_EQ(errors(mesh + "error", 1000), 1u);
+  EXPECT_EQ(errors(mesh + "bounds/max/0", -1000), 1u);
+  EXPECT_GE(errors(grid + "stream", 1), 1u);
+  EXPECT_EQ(errors("/extensions/LIGHTWELL_streams/streams/0/bytes", 1), 1u);
 }
 
 TEST(VerifyPack, FindsEveryDamagedByte) {

@@ -12,6 +12,7 @@
 #include "lightwell/base/parallel.h"
 #include "lightwell/base/random.h"
 #include "lightwell/base/transform.h"
+#include "tests/base/gzipped.h"
 
 namespace lightwell {
 namespace {
@@ -109,6 +110,22 @@ TEST(File, IsWrittenAsAWholeOrNotAtAll) {
   EXPECT_FALSE(read_file(path));
   EXPECT_FALSE(read_file(std::filesystem::path(testing::TempDir())));
   EXPECT_FALSE(write_file(testing::TempDir(), as_bytes("a folder")));
+}
+
+// Tools that pack in parallel or in blocks (bgzip) write many members, the last one empty.
+TEST(File, IsInflatedMemberByMember) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_gzip_test";
+  const auto inflated = [&](const std::string& packed) {
+    EXPECT_TRUE(write_file(path, as_bytes(packed)));
+    const auto bytes = read_file(path, true, 100);
+    return bytes ? std::string(bytes->begin(), bytes->end()) : "error";
+  };
+  const std::string first = gzipped("v 0 0 0\n"), second = gzipped("v 1 0 0\n");
+  EXPECT_EQ(inflated(first + second + gzipped("")), "v 0 0 0\nv 1 0 0\n");
+  EXPECT_EQ(inflated(first + second.substr(0, second.size() - 1)), "error");
+  EXPECT_EQ(inflated(first + "rubbish"), "error");
+  EXPECT_EQ(inflated(first + gzipped(std::string(99, 'v'))), "error") << "beyond the limit together";
+  std::filesystem::remove(path);
 }
 
 TEST(File, ThatIsADeviceIsWrittenToAndNotReplaced) {

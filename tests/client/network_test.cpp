@@ -18,7 +18,7 @@ using Reason = FailureUpdate::Reason;
 struct Sample {
   std::vector<uint8_t> file, other;  ///< two packs of the same layout
   ReceivedScene scene, other_scene;
-  std::vector<std::vector<uint8_t>> atlases;  ///< of both
+  OnTheWay on_the_way;  ///< of both
 };
 
 const Sample& sample() {
@@ -27,7 +27,7 @@ const Sample& sample() {
     Sample packs{sample_pack(scene), sample_pack(scene, 1), {}, {}, {}};
     packs.scene = decode_directly(packs.file);
     packs.other_scene = decode_directly(packs.other);
-    packs.atlases = atlases_on_the_way(packs.file);
+    packs.on_the_way = on_the_way(packs.file);
     return packs;
   }();
   return made;
@@ -43,8 +43,16 @@ ClientOptions options_of(uint64_t seed) {
 
 /// What was shown is of one of the two packs, whatever else went wrong.
 void expect_nothing_wrong_shown(const ReceivedScene& scene) {
-  EXPECT_TRUE(scene.shows_only(sample().scene, sample().atlases) ||
-              scene.shows_only(sample().other_scene, sample().atlases));
+  EXPECT_TRUE(scene.shows_only(sample().scene, sample().on_the_way) ||
+              scene.shows_only(sample().other_scene, sample().on_the_way));
+}
+
+TEST(ReceivedScene, OneWrongFaceIsSeen) {
+  EXPECT_TRUE(sample().scene.shows_only(sample().scene, sample().on_the_way));
+  ReceivedScene wrong = sample().scene;
+  std::vector<uint8_t>& indices = wrong.meshes.begin()->second.buffers.back();
+  std::swap_ranges(indices.begin(), indices.begin() + 4, indices.begin() + 4);
+  EXPECT_FALSE(wrong.shows_only(sample().scene, sample().on_the_way));
 }
 
 /// How many seeds a test tries: the environment's LIGHTWELL_TEST_SCALE times as many as usual.
@@ -130,6 +138,8 @@ TEST(Network, ServerGoesAndComesBack) {
   expect_exact({.rate = 1e5, .gone_from = 0.5, .gone_until = 300}, 3);
   expect_exact({.gone_from = 0, .gone_until = 1000}, 3);
 }
+
+TEST(Network, EqualFilesOnSeveralServers) { expect_exact({.servers = 3}, 3); }
 
 TEST(Network, EverythingAtOnce) {
   expect_exact({.latency = 0.1,

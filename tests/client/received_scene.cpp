@@ -109,21 +109,32 @@ PackReader open_pack(Bytes pack) {
   return PackReader::open(fetch, pack.size()).value();
 }
 
-template <typename Decoder>
-void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream) {
+/// Decodes a whole stream, and calls between() after each block.
+template <typename Decoder, typename Between>
+void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream, const Between& between) {
   for (uint32_t block = 0; block < reader.directory().streams[stream].blocks; block++) {
     const auto appended = decoder.append(reader.block(stream, block).value());
     LW_ASSERT(appended);
+    between();
   }
 }
 
-ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t stream) {
+template <typename Decoder>
+void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream) {
+  append_all(decoder, reader, stream, [] {});
+}
+
+MeshDecoder open_mesh(const PackReader& reader, uint32_t stream) {
   const StreamEntry& entry = reader.directory().streams[stream];
   ByteReader parameters(entry.parameters);
   const MeshLayout layout = MeshLayout::read(parameters).value();
   const BasePlaces places = BasePlaces::read(parameters).value();
   const BaseArrays base = BaseArrays::read(layout, places, glb_chunks(reader.opening()).bin).value();
-  MeshDecoder decoder = std::move(MeshDecoder::open(layout, base.view(), entry.length).value());
+  return std::move(MeshDecoder::open(layout, base.view(), entry.length).value());
+}
+
+ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t stream) {
+  MeshDecoder decoder = open_mesh(reader, stream);
   append_all(decoder, reader, stream);
   ReceivedScene::ReceivedMesh mesh;
   add_buffer(mesh, decoder.positions(), 12);
@@ -132,14 +143,14 @@ ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t strea
   add_buffer(mesh, decoder.texcoords(1), 8);
   add_buffer(mesh, decoder.colors(), 4);
   add_buffer(mesh, decoder.indices(), 4);
-  mesh.vertices = layout.vertices;
-  mesh.faces = layout.faces;
+  mesh.vertices = decoder.layout().vertices;
+  mesh.faces = decoder.layout().faces;
   return mesh;
 }
 
 std::vector<uint8_t> atlas_of(const LightDecoder& decoder, Fill fill) {
   const LightLayout& layout = decoder.layout();
-  LightAtlas atlas(layout.shape, AtlasForm::patched, layout.normal_offset, layout.scale);
+  LightAtlas atlas(layout.shape, layout.normal_offset, layout.scale);
   LightGrid grid = decoder.grid();
   push_pull(grid, decoder.known(), fill);
   atlas.update(grid);
@@ -162,6 +173,23 @@ std::vector<uint8_t> decode_texture(const PackReader& reader, uint32_t stream) {
   return file;
 }
 
+/// Whether the faces drawn are those of a level with as many, or (in the middle of a hand-over) each of its indices
+/// that or one later level's.
+bool shows_a_level(const ReceivedScene::ReceivedMesh& mesh, const std::vector<OnTheWay::Level>& levels) {
+  if (mesh.faces == 0 && mesh.vertices == 0) return true;  // not handed over yet
+  std::vector<uint32_t> shown(size_t(mesh.faces) * 3);
+  std::memcpy(shown.data(), mesh.buffers.back().data(), shown.size() * sizeof(uint32_t));
+  for (auto level = levels.begin(); level != levels.end(); level++) {
+    if (level->vertices != mesh.vertices || level->indices.size() != shown.size()) continue;
+    for (auto later = level; later != levels.end(); later++) {
+      size_t i = 0;
+      while (i < shown.size() && (shown[i] == level->indices[i] || shown[i] == later->indices[i])) i++;
+      if (i == shown.size()) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string ReceivedScene::apply(const Update& update) {
@@ -169,8 +197,7 @@ std::string ReceivedScene::apply(const Update& update) {
   return std::visit(Apply{*this}, update);
 }
 
-bool ReceivedScene::shows_only(const ReceivedScene& whole,
-                               const std::vector<std::vector<uint8_t>>& atlases_allowed) const {
+bool ReceivedScene::shows_only(const ReceivedScene& whole, const OnTheWay& way) const {
   if (!opening.empty() && opening != whole.opening) return false;
   for (const auto& [stream, mesh] : meshes) {
     const ReceivedMesh& full = whole.meshes.at(stream);
@@ -178,11 +205,11 @@ bool ReceivedScene::shows_only(const ReceivedScene& whole,
       const size_t length = size_t(mesh.vertices) * mesh.strides[i];
       if (!std::ranges::equal(Bytes(mesh.buffers[i]).first(length), Bytes(full.buffers[i]).first(length))) return false;
     }
+    if (!shows_a_level(mesh, way.levels.at(stream))) return false;
   }
   return std::ranges::all_of(textures, [&](const auto& own) { return own.second == whole.textures.at(own.first); }) &&
-         std::ranges::all_of(atlases, [&](const auto& own) {
-           return std::ranges::find(atlases_allowed, own.second) != atlases_allowed.end();
-         });
+         std::ranges::all_of(
+             atlases, [&](const auto& own) { return std::ranges::find(way.atlases, own.second) != way.atlases.end(); });
 }
 
 ReceivedScene decode_directly(Bytes pack) {
@@ -200,25 +227,30 @@ ReceivedScene decode_directly(Bytes pack) {
   return scene;
 }
 
-std::vector<std::vector<uint8_t>> atlases_on_the_way(Bytes pack) {
+OnTheWay on_the_way(Bytes pack) {
   const PackReader reader = open_pack(pack);
-  std::vector<std::vector<uint8_t>> atlases;
-  const auto add = [&](const LightDecoder& decoder) {
-    for (const Fill fill : {Fill::none, Fill::push_pull, Fill::push_pull_smooth})
-      atlases.push_back(atlas_of(decoder, fill));
-  };
+  OnTheWay way;
   for (uint32_t stream = 0; stream < reader.directory().streams.size(); stream++) {
     const StreamEntry& entry = reader.directory().streams[stream];
-    if (entry.kind != StreamKind::light) continue;
-    LightDecoder decoder = LightDecoder::open(entry.parameters, entry.length).value();
-    add(decoder);
-    for (uint32_t block = 0; block < entry.blocks; block++) {
-      const auto appended = decoder.append(reader.block(stream, block).value());
-      LW_ASSERT(appended);
-      add(decoder);
+    if (entry.kind == StreamKind::mesh) {
+      MeshDecoder decoder = open_mesh(reader, stream);
+      const auto add = [&] {
+        way.levels[stream].push_back({decoder.vertices(), {decoder.indices().begin(), decoder.indices().end()}});
+      };
+      add();
+      append_all(decoder, reader, stream, add);
+    }
+    if (entry.kind == StreamKind::light) {
+      LightDecoder decoder = LightDecoder::open(entry.parameters, entry.length).value();
+      const auto add = [&] {
+        for (const Fill fill : {Fill::none, Fill::push_pull, Fill::push_pull_smooth})
+          way.atlases.push_back(atlas_of(decoder, fill));
+      };
+      add();
+      append_all(decoder, reader, stream, add);
     }
   }
-  return atlases;
+  return way;
 }
 
 }  // namespace lightwell

@@ -11,6 +11,16 @@
 
 namespace lightwell {
 
+/// What a viewer may see on the way to a pack's scene.
+struct OnTheWay {
+  struct Level {
+    uint32_t vertices = 0;
+    std::vector<uint32_t> indices;  ///< three a face
+  };
+  std::map<uint32_t, std::vector<Level>> levels;  ///< of each mesh, coarse to fine: after any number of blocks
+  std::vector<std::vector<uint8_t>> atlases;      ///< after any number of blocks, filled in any way
+};
+
 /// What a viewer would hold: the buffers that updates make up.
 struct ReceivedScene {
   struct ReceivedMesh {
@@ -32,9 +42,9 @@ struct ReceivedScene {
   /// Applies an update. Gives a complaint when it breaks what update.h promises: order, sizes, faces that may be drawn.
   std::string apply(const Update& update);
 
-  /// True when all that is shown so far belongs to the scene `whole`: its opening, the beginnings of its vertices, its
-  /// textures, and atlases out of `atlases`.
-  bool shows_only(const ReceivedScene& whole, const std::vector<std::vector<uint8_t>>& atlases) const;
+  /// True when all that is shown so far belongs to the scene `whole`: its opening, the beginnings of its vertices, the
+  /// faces of one of its levels, perhaps some of them those of a later level already, its textures and its atlases.
+  bool shows_only(const ReceivedScene& whole, const OnTheWay& on_the_way) const;
 
   bool operator==(const ReceivedScene&) const = default;
 };
@@ -42,7 +52,7 @@ struct ReceivedScene {
 /// The whole scene of a pack, decoded block by block without a client.
 ReceivedScene decode_directly(Bytes pack);
 
-/// Every atlas that a viewer may see on the way: after any number of blocks of a light stream, filled in any way.
-std::vector<std::vector<uint8_t>> atlases_on_the_way(Bytes pack);
+/// All that a viewer may see of a pack before the whole.
+OnTheWay on_the_way(Bytes pack);
 
 }  // namespace lightwell

@@ -119,12 +119,9 @@ void SimulatedNetwork::deliver(Client& client, const Event& event) {
   switch (event.kind) {
     case Event::Kind::head: {
       const bool readable = weather_.readable_headers;
-      client.respond(event.request,
-                     {event.status, readable ? event.content_range : "",
-                      !readable        ? ""
-                      : event.replaced ? "\"b\""
-                                       : "\"a\""},
-                     now_);
+      const std::string etag =
+          (event.replaced ? "\"b" : "\"a") + std::to_string(event.request % weather_.servers) + "\"";
+      client.respond(event.request, {event.status, readable ? event.content_range : "", readable ? etag : ""}, now_);
       return;
     }
     case Event::Kind::bytes: return client.receive(event.request, event.bytes, now_);

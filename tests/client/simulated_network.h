@@ -30,6 +30,7 @@ struct Weather {
   bool ranges = true;                        ///< false: 200 and the whole file, whatever is asked
   bool readable_headers = true;              ///< false: neither Content-Range nor ETag, as from another origin
   double gone_from = 1e9, gone_until = 1e9;  ///< no connection in this time
+  uint32_t servers = 1;                      ///< that answer in turn, each with an ETag of its own for the file
   double replaced_at = 1e9;                  ///< another file from then on
   size_t serves_bytes = SIZE_MAX;            ///< the file on the server is cut to this length
   size_t first_body_bytes = SIZE_MAX;        ///< the first body breaks after so many

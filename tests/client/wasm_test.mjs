@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // wasm_test.mjs LIGHTWELL.wasm SAMPLE_PACK CLIENT_TRACE: streams a sample pack with the WebAssembly client and compares what it hands
-// over, update by update and byte by byte, with what the native client prints.
+// over, update by update and byte by byte, with what the native client prints: every strategy with every fill, and every
+// fault of client_trace with each of both.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -23,8 +24,13 @@ function crc32c(bytes) {
   return ~crc >>> 0;
 }
 
-function trace(wasm, file) {
-  const client = wasm.lw_create(0, 0, 1);
+// An attribute's word as wasm.h describes it.
+function attribute(word) {
+  return [word & 255, (word >>> 8) & 255, (word >>> 16) & 15, (word >>> 20) & 2047, word >>> 31].join();
+}
+
+function trace(wasm, file, strategy, fill, fault) {
+  const client = wasm.lw_create(strategy, fill, 1);
   const words = () => new Uint32Array(wasm.memory.buffer, wasm.lw_record(), 32);
   const bytes = (pointer, length) => new Uint8Array(wasm.memory.buffer, pointer, length);
   const put = (data) => {
@@ -41,11 +47,14 @@ function trace(wasm, file) {
     const tag = '"tag"';
     put(new TextEncoder().encode(range + tag));
     wasm.lw_respond(client, request, 206, range.length, tag.length, now);
-    for (let at = first; at <= last; at += pieceBytes) {
-      const length = put(file.subarray(at, Math.min(at + pieceBytes, last + 1)));
-      wasm.lw_receive(client, request, length, (now += latency));
-    }
-    wasm.lw_finish(client, request, now);
+    const faulty = request % 5 === 0;
+    let body = file.slice(first, last + 1);
+    if (faulty && fault === 1) body = body.subarray(0, Math.floor(body.length / 2));
+    if (faulty && fault === 2) body[Math.floor(body.length / 2)] ^= 1;
+    for (let at = 0; at < body.length; at += pieceBytes)
+      wasm.lw_receive(client, request, put(body.subarray(at, at + pieceBytes)), (now += latency));
+    if (faulty && fault === 1) wasm.lw_fail(client, request, now);
+    else wasm.lw_finish(client, request, now);
   };
 
   // How many words of the record a kind of update prints, and where its bytes' pointer and length stand.
@@ -64,10 +73,15 @@ function trace(wasm, file) {
       const [count, data] = forms[kind];
       const record = words();
       const printed = [kind, ...record.subarray(0, count)];
+      if (kind === 2) printed.push(...Array.from(record.subarray(4, 4 + record[3]), attribute));
       if (data !== undefined) printed.push(crc32c(bytes(record[data], record[data + 1])));
       lines.push(printed.join(' '));
     }
-    if (kind === 7 || (!action && !worked && !kind)) break;
+    if (kind === 7) break;
+    if (action || worked || kind) continue;
+    const wake = wasm.lw_wake(client);
+    if (!Number.isFinite(wake)) break;
+    now = Math.max(now, wake);
   }
   wasm.lw_destroy(client);
   return lines;
@@ -83,12 +97,22 @@ const folder = mkdtempSync(join(tmpdir(), 'lightwell-'));
 try {
   const pack = join(folder, 'sample.lw.glb');
   execFileSync(samplePack, [pack, '6000']);
-  const expected = execFileSync(clientTrace, [pack], { encoding: 'utf8' }).trim().split('\n');
-  const actual = trace(wasm, readFileSync(pack));
-  if (expected.at(-1) !== '7') throw new Error(`the native client ended with: ${expected.at(-1)}`);
-  for (let i = 0; i < Math.max(expected.length, actual.length); i++)
-    if (expected[i] !== actual[i]) throw new Error(`update ${i}: native "${expected[i]}", WebAssembly "${actual[i]}"`);
-  console.log(`${actual.length} updates are the same`);
+  const file = readFileSync(pack);
+  let updates = 0;
+  for (let run = 0; run < 9; run++) {
+    const strategy = run % 3;
+    const fill = Math.floor(run / 3);
+    const fault = (strategy + fill) % 3;
+    const name = `strategy ${strategy}, fill ${fill}, fault ${fault}`;
+    const expected = execFileSync(clientTrace, [pack, strategy, fill, fault], { encoding: 'utf8' }).trim().split('\n');
+    const actual = trace(wasm, file, strategy, fill, fault);
+    if (expected.at(-1) !== '7') throw new Error(`${name}: the native client ended with: ${expected.at(-1)}`);
+    for (let i = 0; i < Math.max(expected.length, actual.length); i++)
+      if (expected[i] !== actual[i])
+        throw new Error(`${name}, update ${i}: native "${expected[i]}", WebAssembly "${actual[i]}"`);
+    updates += actual.length;
+  }
+  console.log(`${updates} updates are the same`);
 } finally {
   rmSync(folder, { recursive: true });
 }

@@ -10,8 +10,8 @@
 
 namespace lightwell {
 
-/// What a GPU does with an atlas: the formula of three.js's chunk lightprobes_pars_fragment (0.187), and the additions
-/// of shaders/light_grid.glsl, in plain arithmetic.
+/// What a GPU does with an atlas: its filter, and the formula of three.js's chunk lightprobes_pars_fragment (0.187), in
+/// plain arithmetic.
 class AtlasLookup {
  public:
   explicit AtlasLookup(const LightAtlas& atlas) : atlas_(atlas) {}
@@ -100,19 +100,5 @@ struct GridPlacement {
     return stretch * (shape.hi() - shape.lo) * Vec3f{{1, 1, -1}};
   }
 };
-
-/// light_grid.glsl's path from a world point to the lookup, line by line.
-inline Vec3f shader_irradiance(const LightAtlas& atlas, const Vec3f& uniform_min, const Vec3f& uniform_max,
-                               const Vec3f& uniform_resolution, const Vec3f& point, const Vec3f& normal) {
-  const AtlasLookup lookup(atlas);
-  const Vec3f size = uniform_resolution * Vec3f{{1, 1, -1}};
-  const float w = std::sqrt(std::max(0.0f, 1 - dot(uniform_max, uniform_max)));
-  const auto turn = [&](const Vec3f& v) { return v + cross(uniform_max, cross(uniform_max, v) - v * w) * 2.0f; };
-  const Vec4f header = lookup.texel(0, 0, 0);
-  const Vec3f cells = atlas.nodes.cast<float>() - Vec3f::filled(1);
-  const Vec3f stretch = size / (cells * Vec3f{{header[0], header[1], header[2]}});
-  const Vec3f n = normalized(stretch * turn(normal));
-  return lookup.irradiance(turn(point - uniform_min) / size * cells + n * header[3], n);
-}
 
 }  // namespace lightwell

@@ -24,7 +24,7 @@ inline Vec3f random_colour(Random& random) { return {{random.uniform(), random.u
 /// Moments of parallel light of irradiance `power` on a surface facing `towards` (docs/light.md section 1).
 inline Moments parallel_light(const Vec3f& towards, const Vec3f& power) {
   const auto sign = [](float v) { return v < 0 ? -1.0f : 1.0f; };
-  const auto shear = [&](int a, int b) {
+  const auto mixed = [&](int a, int b) {
     return power * (0.5f * (sign(towards[a]) * towards[b] + sign(towards[b]) * towards[a]));
   };
   Moments m;
@@ -32,9 +32,9 @@ inline Moments parallel_light(const Vec3f& towards, const Vec3f& power) {
     m.m[static_cast<size_t>(2 * a)] = power * std::max(0.0f, towards[a]);
     m.m[static_cast<size_t>(2 * a + 1)] = power * std::max(0.0f, -towards[a]);
   }
-  m.m[6] = shear(0, 1);
-  m.m[7] = shear(0, 2);
-  m.m[8] = shear(1, 2);
+  m.m[6] = mixed(0, 1);
+  m.m[7] = mixed(0, 2);
+  m.m[8] = mixed(1, 2);
   return m;
 }
 

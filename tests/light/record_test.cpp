@@ -14,7 +14,7 @@ float any_float(Random& random) { return std::bit_cast<float>(random.bits()); }
 MomentsRecord any_record(Random& random) {
   MomentsRecord record;
   for (uint32_t& e : record.irradiance) e = random.bits();
-  for (int8_t& s : record.shear) s = static_cast<int8_t>(random.bits());
+  for (int8_t& s : record.mixed) s = static_cast<int8_t>(random.bits());
   return record;
 }
 

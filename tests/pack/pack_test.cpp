@@ -227,7 +227,11 @@ TEST(SelfContained, FindsReferences) {
   EXPECT_FALSE(check_self_contained(R"({"images":[{"uri":"a.png"}]})"));
   EXPECT_FALSE(check_self_contained(R"({"images":[{ "uri" : "http://example.org/" }]})"));
   EXPECT_FALSE(check_self_contained(R"({"images":[{"\u0075r\u0069":"a.png"}]})"));
-  EXPECT_FALSE(check_self_contained(R"({"a":"\"uri","b":{"uri":"..\/x"}})"));
+  EXPECT_FALSE(check_self_contained(R"({"a":"\"uri","bu\u0066fers":[{"extras":{"uri":1},"uri":"..\/x"}]})"));
+  EXPECT_FALSE(check_self_contained(R"({"nodes":[[{}]],"images":[{"uri":"data:,x"},{"name":"]","uri":"x"}]})"));
+  // Nobody fetches these.
+  EXPECT_TRUE(check_self_contained(R"({"asset":{"extras":{"uri":"https://museum.example/1"}}})"));
+  EXPECT_TRUE(check_self_contained(R"({"nodes":[{"uri":"a"}],"images":[{"extras":{"uri":"b"}}],"uri":"c"})"));
   for (const char* broken : {"\"", "\"uri\"", "\"uri\":", "\"uri\":\"", "\"\\", "\"\\u00"})
     check_self_contained(broken);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <filesystem>
 #include <map>
@@ -9,6 +8,7 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/scene/scene.h"
+#include "tests/base/gzipped.h"
 
 namespace lightwell {
 namespace {
@@ -30,20 +30,6 @@ class TemporaryFolder {
  private:
   fs::path path_;
 };
-
-std::string gzipped(const std::string& text) {
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
-  std::string packed(compressBound(text.size()) + 32, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  stream.avail_in = static_cast<uInt>(text.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
 
 size_t triangles_of(const Scene& scene) {
   size_t count = 0;

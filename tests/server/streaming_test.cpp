@@ -154,7 +154,7 @@ TEST_F(Streaming, NoticesAnotherFile) {
   const auto outcome = stream([&] { replace_pack(sample().other); });
   ASSERT_FALSE(outcome);
   EXPECT_EQ(scene_.reason, FailureUpdate::Reason::replaced) << scene_.failure;
-  EXPECT_TRUE(scene_.shows_only(sample().scene, atlases_on_the_way(sample().file)));
+  EXPECT_TRUE(scene_.shows_only(sample().scene, on_the_way(sample().file)));
   ASSERT_TRUE(stream()) << "a new client reads the new file";
   EXPECT_TRUE(scene_ == sample().other_scene);
 }

@@ -192,6 +192,21 @@ TEST(WebP, ReadsColourWithAndWithoutAlpha) {
   expect_total_on_prefixes(lossless_webp(noise(5, 5, 4)));
 }
 
+// 16383 pixels a side would be a gigabyte; a header is all there is.
+TEST(WebP, MemoryNeedsBytes) {
+  ByteWriter file;
+  file.append(as_bytes("RIFF"));
+  file.u32(22);
+  file.append(as_bytes("WEBPVP8L"));
+  file.u32(10);
+  file.u8(0x2f);
+  file.u32(16382 | 16382 << 14);
+  file.append(std::vector<uint8_t>(5));
+  const auto read = read_webp(file.bytes());
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message().find("claims more pixels"), std::string::npos) << read.error().message();
+}
+
 TEST(ImageFile, RefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(read_image_file({}));
   EXPECT_FALSE(read_image_file(as_bytes("GIF89a")));

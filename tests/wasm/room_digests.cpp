@@ -118,11 +118,9 @@ void fill_and_look_up(const LightDecoder& decoder, Digest& digest) {
     digest.add(grid.moments);
     digest.add(grid.valid);
     look_up(grid, digest);
-    for (const AtlasForm form : {AtlasForm::plain, AtlasForm::patched}) {
-      LightAtlas atlas(grid.shape, form, grid.normal_offset, decoder.layout().scale);
-      atlas.update(grid);
-      digest.add(atlas.halves);
-    }
+    LightAtlas atlas(grid.shape, grid.normal_offset, decoder.layout().scale);
+    atlas.update(grid);
+    digest.add(atlas.halves);
     fill_invalid(grid);
     digest.add(grid.moments);
     digest.add(light_scale(grid));

@@ -36,7 +36,7 @@ export class LightwellLight extends Light {
   readonly #corner: Matrix4;
   readonly #size: Vector3;
 
-  /** `atlas`: the texels of lightwell/light/atlas.h in their patched form. LightRefinement brings finer ones. */
+  /** `atlas`: the texels of lightwell/light/atlas.h. LightRefinement brings finer ones. */
   constructor(
     readonly definition: LightGridDefinition,
     atlas: Uint16Array<ArrayBuffer>,

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/verify_json.h"
+
+#include "lightwell/bake/unpack.h"
+#include "lightwell/light/stream.h"
+#include "lightwell/mesh/base_places.h"
+#include "lightwell/pack/opening.h"
+#include "lightwell/pack/self_contained.h"
+#include "lightwell/texture/stream.h"
+
+namespace lightwell {
+namespace {
+
+// Numbers of JSON are doubles that came from floats.
+bool says(const Json& object, const char* key, double value) {
+  const Json& said = member(object, key);
+  return said.is_number() && static_cast<float>(said.get<double>()) == static_cast<float>(value);
+}
+
+bool says(const Json& object, const char* key, const Vec3f& value) {
+  const Json& said = member(object, key);
+  if (!said.is_array() || said.size() != 3) return false;
+  for (size_t i = 0; i < 3; i++)
+    if (!said[i].is_number() || static_cast<float>(said[i].get<double>()) != value[static_cast<int>(i)]) return false;
+  return true;
+}
+
+tl::unexpected<Error> differs(const std::string& what) {
+  return fail("JSON", what + " differs from what the streams say");
+}
+
+Result<void> verify_table(const Json& json, const Directory& directory) {
+  const Json& table = extension(json, "LIGHTWELL_streams");
+  if (text(table, "id") != to_text(directory.id)) return differs("the id in LIGHTWELL_streams");
+  const Json& streams = member(table, "streams");
+  if (streams.size() != directory.streams.size()) return differs("the number of streams in LIGHTWELL_streams");
+  for (size_t i = 0; i < streams.size(); i++) {
+    const StreamEntry& entry = directory.streams[i];
+    if (text(streams[i], "kind") != to_text(entry.kind) || whole_number(member(streams[i], "codec")) != entry.codec ||
+        whole_number(member(streams[i], "offset")) != entry.first ||
+        whole_number(member(streams[i], "blocks")) != entry.blocks ||
+        whole_number(member(streams[i], "bytes")) != entry.length)
+      return differs("LIGHTWELL_streams: stream " + std::to_string(i));
+  }
+  return {};
+}
+
+Result<void> verify_grid(const Json& grid, const StreamEntry& entry) {
+  LW_TRY(layout, LightLayout::read(entry.parameters));
+  const GridShape& shape = layout.shape;
+  if (!says(grid, "min", shape.lo) || !says(grid, "cell", shape.cell) ||
+      !says(grid, "nodes", shape.nodes.cast<float>()) || !says(grid, "normalOffset", layout.normal_offset) ||
+      whole_number(member(grid, "codec")) != entry.codec)
+    return differs("LIGHTWELL_light_grids: a grid");
+  return {};
+}
+
+// A bound of the input holds for what is decoded but for the rounding to the lattice.
+bool holds(const Json& bounds, const BaseArrays& base, float step) {
+  for (const Vec3f& p : base.positions)
+    for (int i = 0; i < 3; i++) {
+      const Json &lo = member(bounds, "min"), &hi = member(bounds, "max");
+      const auto at = static_cast<size_t>(i);
+      if (!lo.is_array() || !hi.is_array() || lo.size() != 3 || hi.size() != 3 || !lo[at].is_number() ||
+          !hi[at].is_number() || !(p[i] >= lo[at].get<float>() - step && p[i] <= hi[at].get<float>() + step))
+        return false;
+    }
+  return true;
+}
+
+Result<void> verify_primitive(const Json& primitive, const StreamEntry& entry, Bytes bin) {
+  ByteReader parameters(entry.parameters);
+  LW_TRY(layout, MeshLayout::read(parameters));
+  LW_TRY(places, BasePlaces::read(parameters));
+  LW_TRY(base, BaseArrays::read(layout, places, bin));
+  if (!says(primitive, "vertices", layout.vertices) || !says(primitive, "faces", layout.faces) ||
+      !says(primitive, "error", layout.base_error) ||
+      !holds(member(primitive, "bounds"), base, layout.positions.step()))
+    return differs("LIGHTWELL_progressive_mesh: a primitive");
+  return {};
+}
+
+Result<void> verify_texture(const Json& texture, const StreamEntry& entry) {
+  LW_TRY(parameters, decode_texture_parameters(entry.parameters));
+  if (!says(texture, "width", parameters.width) || !says(texture, "height", parameters.height) ||
+      text(texture, "mimeType") != mime_type(parameters.format))
+    return differs("LIGHTWELL_progressive_texture: a texture");
+  return {};
+}
+
+// Calls verify(object, entry) when the object is there, with the stream that it names.
+template <typename Verify>
+Result<void> verify_named(const Directory& directory, const Json& object, StreamKind kind, const Verify& verify) {
+  if (!object.is_object()) return {};
+  const int stream = index_of(object, "stream");
+  if (stream < 0 || static_cast<size_t>(stream) >= directory.streams.size() ||
+      directory.streams[static_cast<size_t>(stream)].kind != kind)
+    return fail("JSON", "names a " + std::string(to_text(kind)) + " stream that there is not");
+  return verify(object, directory.streams[static_cast<size_t>(stream)]);
+}
+
+}  // namespace
+
+Result<void> verify_json(const PackReader& pack) {
+  const GlbChunks chunks = glb_chunks(pack.opening());
+  LW_CHECK(check_self_contained({reinterpret_cast<const char*>(chunks.json.data()), chunks.json.size()}));
+  LW_TRY(json, pack_json(pack));
+  const Directory& directory = pack.directory();
+  LW_CHECK(verify_table(json, directory));
+  for (const Json& grid : member(extension(json, "LIGHTWELL_light_grids"), "grids"))
+    LW_CHECK(verify_named(directory, grid, StreamKind::light, verify_grid));
+  for (const Json& mesh : member(json, "meshes"))
+    for (const Json& primitive : member(mesh, "primitives"))
+      LW_CHECK(verify_named(
+          directory, extension(primitive, "LIGHTWELL_progressive_mesh"), StreamKind::mesh,
+          [&](const Json& said, const StreamEntry& entry) { return verify_primitive(said, entry, chunks.bin); }));
+  for (const Json& texture : member(json, "textures"))
+    LW_CHECK(verify_named(directory, extension(texture, "LIGHTWELL_progressive_texture"), StreamKind::texture,
+                          verify_texture));
+  return {};
+}
+
+}  // namespace lightwell
