@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "lightwell/bake/free_space.h"
+#include "lightwell/bake/thin_walls.h"
 #include "lightwell/bake/tracks.h"
 #include "lightwell/base/assert.h"
 #include "lightwell/base/parallel.h"
@@ -108,7 +109,7 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   }
   const auto start = std::chrono::steady_clock::now();
   LightGrid grid;
-  grid.shape = GridShape::over(scene.lights().region(), options.nodes);
+  grid.shape = grid_of_walls(scene, options.nodes);
   if (grid.shape.count() > LightLayout::most_nodes) {
     return fail("grid", std::to_string(options.nodes) + " nodes on the longest axis are " +
                             std::to_string(grid.shape.count()) + " in all, a pack holds " +
@@ -124,7 +125,8 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   const bool closed = static_cast<double>(statistics.escaped) < closed_escapes;
   solids.decide(traced.hits);
   const std::vector<float> shares = free_shares(scene, solids, grid.shape, closed, ~options.seed, options.threads);
-  for (const float share : shares) grid.valid.push_back(share >= least_free_share);
+  for (size_t node = 0; node < shares.size(); node++)
+    grid.valid.push_back(shares[node] >= least_free_share && !is_in_thin_wall(scene, solids, grid.shape, node));
 
   // A half holds half of the photons (one more of even index when their number is odd).
   const float flux = reference_flux(scene);

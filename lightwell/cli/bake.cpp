@@ -6,6 +6,7 @@
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
+#include "lightwell/scene/camera.h"
 
 namespace lightwell {
 namespace {
@@ -20,6 +21,7 @@ struct Options {
 struct Bake {
   Scene scene;
   std::unique_ptr<const TraceScene> traced;
+  Camera camera;  // from which a viewer begins
   LightGrid grid;
   PackLight light;
   std::vector<uint8_t> file;
@@ -51,7 +53,8 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
     (luminaires[i].kind == Luminaire::Kind::environment ? bake.light.contains_environment : bake.light.contains_lamps) =
         true;
   }
-  LW_TRY(camera, choose_camera(bake.scene, ""));
+  LW_TRY(camera, choose_camera(*bake.traced, ""));
+  bake.camera = camera;
   bake.light.exposure = choose_exposure(*bake.traced, camera, bake.grid, contained);
   return {};
 }
@@ -65,6 +68,8 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   LW_CHECK(bake_grid(options, progress, bake));
   bake.light_seconds = watch.lap();
   bake.traced.reset();
+  if (bake.scene.cameras.empty())
+    add_camera(bake.scene.document, bake.camera, 1e-3f * length(bake.scene.bounds().size()));
   LW_TRY(file, make_pack(bake.scene, bake.light, options.pack, progress, bake.report, bake.pack_statistics));
   bake.file = std::move(file);
   bake.geometry_seconds = watch.lap();

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "lightwell/bake/contained.h"
-#include "lightwell/render/camera.h"
+#include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
 
@@ -59,8 +59,9 @@ Result<Scene> open_scene(const SceneOptions& options, Report& report, const Mesh
   return scene;
 }
 
-Result<Camera> choose_camera(const Scene& scene, const std::string& choice) {
-  if (choice.empty()) return scene.cameras.empty() ? overview_camera(scene.bounds()) : scene.cameras.front();
+Result<Camera> choose_camera(const TraceScene& traced, const std::string& choice) {
+  const Scene& scene = traced.scene();
+  if (choice.empty()) return scene.cameras.empty() ? overview_camera(traced) : scene.cameras.front();
   for (const Camera& camera : scene.cameras)
     if (camera.name == choice) return camera;
   const auto number = parse_count(choice);

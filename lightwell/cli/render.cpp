@@ -3,6 +3,7 @@
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
+#include "lightwell/render/integrator.h"
 
 namespace lightwell {
 namespace {
@@ -45,7 +46,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   Figures figures;
   LW_TRY(scene, open_scene(options.scene, report, options.mesh_level));
   LW_TRY(traced, TraceScene::build(scene));
-  LW_TRY(camera, choose_camera(scene, options.camera));
+  LW_TRY(camera, choose_camera(*traced, options.camera));
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);

@@ -10,7 +10,4 @@ namespace lightwell {
 /// width / height; the camera's yfov is the picture's height whatever its aspect.
 Ray camera_ray(const Camera& camera, float aspect, float x, float y);
 
-/// A camera that sees all of a box from its front, a little from above: for scenes that bring none.
-Camera overview_camera(const Box3f& bounds);
-
 }  // namespace lightwell

@@ -3,49 +3,81 @@
 
 #include <algorithm>
 
+#include "lightwell/base/parallel.h"
+#include "lightwell/render/camera.h"
+#include "lightwell/trace/paths.h"
+
 namespace lightwell {
 namespace {
 
-constexpr float middle_grey = 0.18f;
-constexpr float white = 1;
+constexpr int width = 96, height = 72, samples = 8;
 
-/// Rec. 709 luminance of the pixels that are not black.
-std::vector<float> luminances(const Picture& picture) {
-  std::vector<float> result;
-  for (size_t i = 0; i < picture.pixels.size(); i += 3) {
-    const float* p = &picture.pixels[i];
-    const float luminance = 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2];
-    if (luminance > 0) result.push_back(luminance);
+/// What a white surface in mean light is shown as: a scene of common reflectances, around 0.36, gets a mean of 0.18.
+constexpr float white_surface = 0.5f;
+/// What 95 % of the picture stay below. The tone curve keeps what is beyond 1 apart a little further.
+constexpr float brightest = 1.5f;
+
+/// What a light meter reads from a camera: one number a pixel that shows a lit surface.
+struct Readings {
+  std::vector<float> incident;   ///< the radiance that a white surface would have there
+  std::vector<float> reflected;  ///< that which the surface has
+};
+
+/// Rec. 709 luminance.
+float luminance(const Vec3f& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+
+Readings read_meter(const TraceScene& scene, const Camera& camera, const LightGrid& grid,
+                    std::span<const uint8_t> contained) {
+  const PathOptions straight{.max_bounces = 0, .apart = contained};
+  std::vector<Vec2f> pixels(size_t(width) * height);
+  parallel_for(pixels.size(), width, 0, [&](size_t begin, size_t end, int) {
+    for (size_t pixel = begin; pixel < end; pixel++) {
+      Random random(1, pixel);
+      for (int i = 0; i < samples; i++) {
+        const float x = (static_cast<float>(pixel % width) + random.uniform()) / width;
+        const float y = (static_cast<float>(pixel / width) + random.uniform()) / height;
+        Hit hit;
+        if (!scene.intersect(camera_ray(camera, float(width) / height, x, y), random, hit)) continue;
+        const Receiver receiver = Receiver::irradiance(hit.position, hit.facing_normal());
+        const Vec3f white = (trace_path(scene, receiver, straight, random).direct +
+                             grid.irradiance(hit.position, scene.shading_normal(hit))) /
+                            pi;
+        const Bsdf bsdf = scene.surface(hit).bsdf;
+        pixels[pixel] += Vec2f{{luminance(white), luminance(white * (bsdf.diffuse + bsdf.metal))}} / float(samples);
+      }
+    }
+  });
+  Readings readings;
+  for (const Vec2f& pixel : pixels) {
+    if (pixel[0] <= 0) continue;
+    readings.incident.push_back(pixel[0]);
+    readings.reflected.push_back(pixel[1]);
   }
-  return result;
+  return readings;
+}
+
+float geometric_mean(const std::vector<float>& values) {
+  double logarithms = 0;
+  for (const float value : values) logarithms += std::log2(static_cast<double>(value));
+  return static_cast<float>(std::exp2(logarithms / static_cast<double>(values.size())));
+}
+
+float percentile(std::vector<float> values, double share) {
+  const auto found = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), found, values.end());
+  return *found;
 }
 
 }  // namespace
 
 float choose_exposure(const TraceScene& scene, const Camera& camera, const LightGrid& grid,
                       std::span<const uint8_t> contained) {
-  // Direct and indirect light apart, since their sum would also show the lamps.
-  RenderOptions options{.integrator = Integrator::ivg, .width = 96, .height = 72, .samples = 8};
-  options.grid = &grid;
-  options.contained = contained;
-  Progress silent;
-  RenderStatistics statistics;
-  options.part = LightPart::direct;
-  Result<Picture> picture = render(scene, camera, options, silent, statistics);
-  options.part = LightPart::indirect;
-  const Result<Picture> indirect = render(scene, camera, options, silent, statistics);
-  if (!picture || !indirect) return 0;
-  for (size_t i = 0; i < picture->pixels.size(); i++) picture->pixels[i] += indirect->pixels[i];
-
-  std::vector<float> all = luminances(*picture);
-  if (all.empty()) return 0;
-  double logarithms = 0;
-  for (const float luminance : all) logarithms += std::log2(static_cast<double>(luminance));
-  const float mean = static_cast<float>(std::exp2(logarithms / static_cast<double>(all.size())));
-  const auto bright = all.begin() + static_cast<ptrdiff_t>(0.95 * static_cast<double>(all.size() - 1));
-  std::nth_element(all.begin(), bright, all.end());
-  const float exposure = std::log2(std::min(middle_grey / mean, white / *bright));
-  return std::round(exposure * 10) / 10;
+  const Readings readings = read_meter(scene, camera, grid, contained);
+  if (readings.incident.empty()) return 0;
+  float scale = white_surface / geometric_mean(readings.incident);
+  const float bright = percentile(readings.reflected, 0.95);
+  if (bright > 0) scale = std::min(scale, brightest / bright);
+  return std::round(std::log2(scale) * 10) / 10;
 }
 
 }  // namespace lightwell

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "lightwell/scene/camera.h"
+
 namespace lightwell {
 namespace {
 
@@ -47,19 +49,15 @@ void SceneBuilder::object(const std::string& name, const std::vector<Part>& part
 
 void SceneBuilder::camera(const std::string& name, const Vec3d& eye, const Vec3d& target, double yfov, int width,
                           int height) {
-  const Vec3d back = normalized(eye - target);
-  const Vec3d right = normalized(cross(Vec3d{{0, 1, 0}}, back));
-  const Vec3d up = cross(back, right);
-  const Json camera = {
-      {"name", name},
-      {"type", "perspective"},
-      {"perspective", {{"yfov", yfov}, {"aspectRatio", static_cast<double>(width) / height}, {"znear", 0.01}}},
-      {"extras", {{"width", width}, {"height", height}}}};
-  node({{"name", name},
-        {"camera", builder_.add("cameras", camera)},
-        {"matrix",
-         {right[0], right[1], right[2], 0, up[0], up[1], up[2], 0, back[0], back[1], back[2], 0, eye[0], eye[1], eye[2],
-          1}}});
+  Camera camera;
+  camera.name = name;
+  camera.to_scene = looking_at(eye, target);
+  camera.yfov = static_cast<float>(yfov);
+  camera.aspect = static_cast<float>(width) / static_cast<float>(height);
+  camera.width = width;
+  camera.height = height;
+  show();
+  add_camera(document_, camera, 0.01f);
 }
 
 void SceneBuilder::use_extension(const std::string& name) {
@@ -67,11 +65,15 @@ void SceneBuilder::use_extension(const std::string& name) {
   if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
-void SceneBuilder::node(Json node) {
+void SceneBuilder::show() {
   document_.json["scene"] = 0;
   Json& scenes = document_.json["scenes"];
   if (scenes.empty()) scenes.push_back({{"nodes", Json::array()}});
-  scenes[0]["nodes"].push_back(builder_.add("nodes", std::move(node)));
+}
+
+void SceneBuilder::node(Json node) {
+  show();
+  document_.json["scenes"][0]["nodes"].push_back(builder_.add("nodes", std::move(node)));
 }
 
 }  // namespace lightwell

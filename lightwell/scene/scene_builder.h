@@ -45,6 +45,7 @@ class SceneBuilder {
 
  private:
   void use_extension(const std::string& name);
+  void show();  // makes a scene, if there is none yet
   void node(Json node);
 
   Document document_;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/thin_walls.h"
+
+#include "lightwell/bake/tracks.h"
+#include "lightwell/trace/lights.h"
+
+namespace lightwell {
+namespace {
+
+constexpr int lines = 24;                            // that probe an axis, on each of the two others
+constexpr int most_walls = 64;                       // on a line
+constexpr size_t worth_a_node = lines * lines / 20;  // that must gain by it, for an axis to get more nodes
+
+/// Where a line enters a solid and leaves it again, from the region's face, metres.
+struct Wall {
+  float from, to;
+};
+
+/// The walls on a line along an axis that are thinner than `thickness`.
+void add_walls(const TraceScene& scene, Ray line, float thickness, std::vector<Wall>& walls) {
+  Random random(0, 0);
+  float travelled = 0;
+  float entered = -1;
+  for (int i = 0; i < 2 * most_walls; i++) {
+    Hit hit;
+    if (!scene.intersect(line, random, hit)) return;
+    const float at = travelled + hit.distance;
+    if (!hit.front && entered >= 0 && at - entered < thickness) walls.push_back({entered, at});
+    entered = hit.front ? at : -1;
+    travelled = at + scene.offset();
+    line.origin += line.direction * (hit.distance + scene.offset());
+  }
+}
+
+/// The thin walls that lines along an axis meet, evenly spread over the region.
+std::vector<Wall> walls_across(const TraceScene& scene, const Box3f& region, int axis, float thickness) {
+  std::vector<Wall> walls;
+  const int side = (axis + 1) % 3, other = (axis + 2) % 3;
+  for (int i = 0; i < lines * lines; i++) {
+    Ray line;
+    line.direction[axis] = 1;
+    line.origin = region.lo;
+    line.origin[side] += region.size()[side] * (static_cast<float>(i % lines) + 0.5f) / lines;
+    line.origin[other] += region.size()[other] * (static_cast<float>(i / lines) + 0.5f) / lines;
+    add_walls(scene, line, thickness, walls);
+  }
+  return walls;
+}
+
+/// How many of the walls no node lies in, of nodes a distance of `cell` apart.
+size_t missed(const std::vector<Wall>& walls, float cell) {
+  const float margin = 1e-3f * cell;
+  size_t count = 0;
+  for (const Wall& wall : walls) {
+    const float node = std::ceil((wall.from + margin) / cell) * cell;
+    count += node > wall.to - margin;
+  }
+  return count;
+}
+
+}  // namespace
+
+GridShape grid_of_walls(const TraceScene& scene, int longest) {
+  const Box3f& region = scene.lights().region();
+  GridShape shape = GridShape::over(region, longest);
+  const Vec3f size = shape.hi() - shape.lo;
+  for (int axis = 0; axis < 3; axis++) {
+    const std::vector<Wall> walls = walls_across(scene, region, axis, shape.cell[axis]);
+    const auto missed_by = [&](int nodes) { return missed(walls, size[axis] / static_cast<float>(nodes - 1)); };
+    const int fewest = shape.nodes[axis];
+    int best = fewest;
+    for (int nodes = fewest + 1; nodes <= fewest + (fewest + 7) / 8; nodes++)
+      if (missed_by(nodes) + worth_a_node <= missed_by(best)) best = nodes;
+    shape.nodes[axis] = best;
+    shape.cell[axis] = size[axis] / static_cast<float>(best - 1);
+  }
+  return shape;
+}
+
+bool is_in_thin_wall(const TraceScene& scene, const Solids& solids, const GridShape& shape, size_t node) {
+  const Vec3f position = node_box(shape, node).center();  // within the scene, as a node at its face is not
+  Random random(0, node);
+  const auto meets_back = [&](int axis, float way) {
+    Ray ray{.origin = position, .far = shape.cell[axis] / 2};
+    ray.direction[axis] = way;
+    Hit hit;
+    return scene.intersect(ray, random, hit) && solids.from_inside(hit);
+  };
+  for (int axis = 0; axis < 3; axis++)
+    if (meets_back(axis, 1) && meets_back(axis, -1)) return true;
+  return false;
+}
+
+}  // namespace lightwell

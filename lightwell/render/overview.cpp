@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/render/overview.h"
+
+#include "lightwell/render/camera.h"
+#include "lightwell/scene/camera.h"
+#include "lightwell/trace/sampling.h"
+
+namespace lightwell {
+namespace {
+
+constexpr int lattice = 7;        // points an axis
+constexpr int sight_lines = 256;  // from a point, to all sides
+constexpr int headings = 16;
+constexpr Vec<int, 2> view_rays{{12, 9}};
+constexpr float view_aspect = 4.0f / 3;
+/// Of a point's sight lines, how many may leave the scene or end inside a solid: doors and cracks let some pass.
+constexpr float most_strays = 0.03f;
+/// What share of its sight lines a point must have ending on fronts to be within something, be it open or not.
+constexpr float least_fronts_within = 0.75f;
+/// Of such points, how many must be enclosed before the scene is: a stage that is open to the front has enclosed
+/// corners, too.
+constexpr float least_enclosed = 0.15f;
+
+/// Points in the middles of the parts of a box.
+std::vector<Vec3f> lattice_points(const Box3f& box) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < lattice * lattice * lattice; i++) {
+    const Vec3f part = Vec3i{{i % lattice, i / lattice % lattice, i / lattice / lattice}}.cast<float>();
+    points.push_back(box.lo + box.size() * ((part + Vec3f::filled(0.5f)) / static_cast<float>(lattice)));
+  }
+  return points;
+}
+
+/// The share of a point's sight lines that end on the front of a surface, not on a back or nowhere.
+float share_of_fronts(const TraceScene& scene, const Vec3f& point) {
+  Random random(0, 0);
+  int fronts = 0;
+  for (int i = 0; i < sight_lines; i++) {
+    Hit hit;
+    fronts += scene.intersect({point, sample_sphere(random)}, random, hit) && hit.front;
+  }
+  return static_cast<float>(fronts) / sight_lines;
+}
+
+/// A level camera at a point.
+Camera level_camera(const Vec3f& eye, int heading) {
+  const double angle = 2 * static_cast<double>(pi) * heading / headings;
+  Camera camera;
+  camera.name = "overview";
+  camera.yfov = 1;
+  camera.to_scene = looking_at(eye.cast<double>(), eye.cast<double>() + Vec3d{{std::sin(angle), 0, -std::cos(angle)}});
+  return camera;
+}
+
+/// The mean of the logarithms of how far a camera's rays go; a ray that leaves the scene counts as one that sees
+/// nothing.
+float depth_of_view(const TraceScene& scene, const Camera& camera, float nothing) {
+  Random random(0, 0);
+  float sum = 0;
+  for (int y = 0; y < view_rays[1]; y++)
+    for (int x = 0; x < view_rays[0]; x++) {
+      const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(view_rays[0]);
+      const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(view_rays[1]);
+      Hit hit;
+      const bool met = scene.intersect(camera_ray(camera, view_aspect, u, v), random, hit);
+      sum += std::log(met ? std::max(hit.distance, nothing) : nothing);
+    }
+  return sum;
+}
+
+Camera view_from_within(const TraceScene& scene, const std::vector<Vec3f>& eyes) {
+  const float nothing = 1e-3f * length(scene.bounds().size());
+  Camera best;
+  float farthest = -std::numeric_limits<float>::infinity();
+  for (const Vec3f& eye : eyes)
+    for (int heading = 0; heading < headings; heading++) {
+      const Camera camera = level_camera(eye, heading);
+      const float depth = depth_of_view(scene, camera, nothing);
+      if (depth <= farthest) continue;
+      farthest = depth;
+      best = camera;
+    }
+  return best;
+}
+
+/// The nearest camera in front of a box that has all of it in a square picture, with a margin.
+Camera view_from_outside(const Box3f& box) {
+  constexpr double margin = 1.1;
+  const Vec3d back = normalized(Vec3d{{0, 0.2, 1}});
+  const Vec3d center = box.center().cast<double>();
+  Camera camera;
+  camera.name = "overview";
+  const Transform turn = looking_at(center, center - back);
+  const double slope = std::tan(static_cast<double>(camera.yfov) / 2) / margin;
+  double distance = 1e-6;
+  for (int i = 0; i < 8; i++) {
+    const Vec3d corner =
+        Vec3f{{i & 1 ? box.hi[0] : box.lo[0], i & 2 ? box.hi[1] : box.lo[1], i & 4 ? box.hi[2] : box.lo[2]}}
+            .cast<double>() -
+        center;
+    const double aside = std::max(std::abs(dot(corner, turn.x)), std::abs(dot(corner, turn.y)));
+    distance = std::max(distance, dot(corner, back) + aside / slope);
+  }
+  camera.to_scene = looking_at(center + back * distance, center);
+  return camera;
+}
+
+}  // namespace
+
+Camera overview_camera(const TraceScene& scene) {
+  std::vector<Vec3f> enclosed;
+  float within = 0;
+  for (const Vec3f& point : lattice_points(scene.bounds())) {
+    const float fronts = share_of_fronts(scene, point);
+    within += fronts >= least_fronts_within;
+    if (fronts >= 1 - most_strays) enclosed.push_back(point);
+  }
+  const bool inside = !enclosed.empty() && static_cast<float>(enclosed.size()) >= least_enclosed * within;
+  return inside ? view_from_within(scene, enclosed) : view_from_outside(scene.bounds());
+}
+
+}  // namespace lightwell
