@@ -18,8 +18,8 @@ constexpr float most_strays = 0.03f;
 /// What share of its sight lines a point must have ending on fronts to be within something, be it open or not.
 constexpr float least_fronts_within = 0.75f;
 /// Of such points, how many must be enclosed before the scene is: a stage that is open to the front has enclosed
-/// corners, too.
-constexpr float least_enclosed = 0.15f;
+/// corners, too. And of all points: a statue has hollows.
+constexpr float least_enclosed = 0.15f, least_enclosed_of_all = 0.03f;
 
 /// Points in the middles of the parts of a box.
 std::vector<Vec3f> lattice_points(const Box3f& box) {
@@ -109,13 +109,15 @@ Camera view_from_outside(const Box3f& box) {
 
 Camera overview_camera(const TraceScene& scene) {
   std::vector<Vec3f> enclosed;
+  const std::vector<Vec3f> points = lattice_points(scene.bounds());
   float within = 0;
-  for (const Vec3f& point : lattice_points(scene.bounds())) {
+  for (const Vec3f& point : points) {
     const float fronts = share_of_fronts(scene, point);
     within += fronts >= least_fronts_within;
     if (fronts >= 1 - most_strays) enclosed.push_back(point);
   }
-  const bool inside = !enclosed.empty() && static_cast<float>(enclosed.size()) >= least_enclosed * within;
+  const float least = std::max(least_enclosed * within, least_enclosed_of_all * static_cast<float>(points.size()));
+  const bool inside = static_cast<float>(enclosed.size()) >= least;
   return inside ? view_from_within(scene, enclosed) : view_from_outside(scene.bounds());
 }
 
