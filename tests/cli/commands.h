@@ -34,14 +34,21 @@ class Commands : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// `by` runs it: by default something that ends what hangs.
-  Outcome run(const std::string& arguments, const std::string& by = "timeout 60") const {
-    const std::string out = path("stdout"), err = path("stderr");
-    const int status = std::system((by + " " LIGHTWELL_PROGRAM " " + arguments + " >" + out + " 2>" + err).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  Outcome run(const std::string& arguments) const {
+    return run_in_shell("timeout 60 " LIGHTWELL_PROGRAM " " + arguments + redirected());
+  }
+  /// Sends a signal ("INT", "TERM") once the program has said `word` on stderr.
+  Outcome interrupt(const std::string& arguments, const std::string& word, const std::string& signal) const {
+    return run_in_shell(LIGHTWELL_PROGRAM " " + arguments + redirected() + " & until grep -q '" + word + "' " +
+                        path("stderr") + "; do kill -0 $! && sleep 0.02; done; kill -" + signal + " $!; wait $!");
   }
   const fs::path& folder() const { return folder_; }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string redirected() const { return " >" + path("stdout") + " 2>" + path("stderr"); }
+  Outcome run_in_shell(const std::string& command) const {
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(path("stdout")), read(path("stderr"))};
+  }
   static std::string read(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     std::stringstream text;

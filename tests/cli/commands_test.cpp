@@ -171,14 +171,9 @@ TEST_F(Commands, ProbeMeasuresTheFurnace) {
 TEST_F(Commands, AnInterruptedBakeLeavesNothing) {
   for (const auto& [signal, status] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
     // Once the import is over the light is traced, for minutes if nobody interrupts.
-    const std::string err = path("err");
-    const int outcome =
-        std::system((LIGHTWELL_PROGRAM " bake box-small -o " + path("cut.glb") + " --photons 1G 2>" + err +
-                     " & until grep -q importing " + err + "; do sleep 0.05; done; kill -" + signal + " $!; wait $!")
-                        .c_str());
-    EXPECT_EQ(WEXITSTATUS(outcome), status);
-    const std::string said = read(err);
-    EXPECT_TRUE(said.ends_with("\nlightwell: cancelled, nothing written\n")) << said;
+    const Outcome cut = interrupt("bake box-small -o " + path("cut.glb") + " --photons 1G", "importing", signal);
+    EXPECT_EQ(cut.status, status);
+    EXPECT_TRUE(cut.err.ends_with("\nlightwell: cancelled, nothing written\n")) << cut.err;
     EXPECT_FALSE(fs::exists(path("cut.glb")));
     for (const auto& entry : fs::directory_iterator(folder()))
       EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
