@@ -3,37 +3,23 @@
 // Builds dist/: the package (core.js, three.js, element.js, with three.js left to its user), the worker, the page and, when
 // its path is given, lightwell.wasm:   node build.mjs [WASM]
 import { spawnSync } from 'node:child_process';
-import { copyFile, mkdir, rm } from 'node:fs/promises';
-import { build } from 'esbuild';
-import { glslPlugin } from './glsl_plugin.mjs';
-
-const common = {
-  absWorkingDir: import.meta.dirname,
-  bundle: true,
-  format: 'esm',
-  target: 'es2022',
-  minify: true,
-  outdir: 'dist',
-  legalComments: 'none',
-  logLevel: 'warning',
-};
+import { copyFile, mkdir, rm, writeFile } from 'node:fs/promises';
+import { bundle } from './bundle.mjs';
 
 process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });
 await mkdir('dist');
-const plugins = [glslPlugin];
-await Promise.all([
-  build({
-    ...common,
-    plugins,
+const bundles = await Promise.all([
+  bundle({
     entryPoints: { core: 'src/core/index.ts', three: 'src/three/index.ts', element: 'src/element/index.ts' },
     external: ['three', 'three/*'],
     splitting: true,
   }),
-  build({ ...common, entryPoints: { worker: 'src/core/worker.ts' } }),
-  build({ ...common, plugins, entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' } }),
-  copyFile('src/page/index.html', 'dist/index.html'),
+  bundle({ entryPoints: { worker: 'src/core/worker.ts' } }),
+  bundle({ entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' } }),
 ]);
+await Promise.all(bundles.flat().map(({ path, text }) => writeFile(path, text)));
+await copyFile('src/page/index.html', 'dist/index.html');
 const wasm = process.argv[2];
 if (wasm !== undefined) await copyFile(wasm, 'dist/lightwell.wasm');
 
