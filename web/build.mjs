@@ -3,8 +3,11 @@
 // Builds dist/: the package (core.js, three.js, element.js, with three.js left to its user), the worker, the page and, when
 // its path is given, lightwell.wasm:   node build.mjs [WASM]
 import { spawnSync } from 'node:child_process';
-import { copyFile, mkdir, rm, writeFile } from 'node:fs/promises';
+import { copyFile, mkdir, readFile, rm, writeFile } from 'node:fs/promises';
 import { bundle } from './bundle.mjs';
+
+/** Properties that three.js keeps to itself: the page holds all of three.js, so that nothing else needs their names. */
+const PRIVATE_PROPERTIES = /^_[a-z]/;
 
 process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });
@@ -16,10 +19,10 @@ const bundles = await Promise.all([
     splitting: true,
   }),
   bundle({ entryPoints: { worker: 'src/core/worker.ts' } }),
-  bundle({ entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' } }),
+  bundle({ entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' }, mangleProps: PRIVATE_PROPERTIES }),
 ]);
 await Promise.all(bundles.flat().map(({ path, text }) => writeFile(path, text)));
-await copyFile('src/page/index.html', 'dist/index.html');
+await writeFile('dist/index.html', (await readFile('src/page/index.html', 'utf8')).replace(/^ +/gm, ''));
 const wasm = process.argv[2];
 if (wasm !== undefined) await copyFile(wasm, 'dist/lightwell.wasm');
 
