@@ -36,7 +36,7 @@ async function openPack(t, { bytes, url = '/packs/broken.lw.glb', init } = {}) {
 
 test('a file that is no pack', async (t) => {
   const { page, errors } = await openPack(t, { bytes: 'A letter, not a scene.'.repeat(100) });
-  await notice(page, '^This scene cannot be shown.*broken.lw.glb: header: is not that of a binary glTF');
+  await notice(page, '^This scene cannot be shown.*broken.lw.glb: is no pack: it does not begin as a binary glTF does');
   assert.equal(await page.evaluate(() => document.querySelector('lightwell-view').loaded), false);
   assert.deepEqual(errors, []);
 });
