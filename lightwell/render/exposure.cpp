@@ -33,9 +33,10 @@ Readings read_meter(const TraceScene& scene, const Camera& camera, const LightGr
   parallel_for(pixels.size(), width, 0, [&](size_t begin, size_t end, int) {
     for (size_t pixel = begin; pixel < end; pixel++) {
       Random random(1, pixel);
+      const size_t column = pixel % width, row = pixel / width;
       for (int i = 0; i < samples; i++) {
-        const float x = (static_cast<float>(pixel % width) + random.uniform()) / width;
-        const float y = (static_cast<float>(pixel / width) + random.uniform()) / height;
+        const float x = (static_cast<float>(column) + random.uniform()) / width;
+        const float y = (static_cast<float>(row) + random.uniform()) / height;
         Hit hit;
         if (!scene.intersect(camera_ray(camera, float(width) / height, x, y), random, hit)) continue;
         const Receiver receiver = Receiver::irradiance(hit.position, hit.facing_normal());
