@@ -40,8 +40,9 @@ std::vector<Wall> walls_across(const TraceScene& scene, const Box3f& region, int
     Ray line;
     line.direction[axis] = 1;
     line.origin = region.lo;
-    line.origin[side] += region.size()[side] * (static_cast<float>(i % lines) + 0.5f) / lines;
-    line.origin[other] += region.size()[other] * (static_cast<float>(i / lines) + 0.5f) / lines;
+    const int column = i % lines, row = i / lines;
+    line.origin[side] += region.size()[side] * (static_cast<float>(column) + 0.5f) / lines;
+    line.origin[other] += region.size()[other] * (static_cast<float>(row) + 0.5f) / lines;
     add_walls(scene, line, thickness, walls);
   }
   return walls;

@@ -30,9 +30,14 @@ std::string short_number(double value) {
   return text;
 }
 
+// The name of an entry of the object that is called `key`; the outermost one has no name.
+std::string entry_name(const std::string& key, const std::string& name) {
+  return key.empty() ? name : key + "." + name;
+}
+
 void print_lines(const nlohmann::ordered_json& value, const std::string& key) {
   if (value.is_object()) {
-    for (const auto& [name, item] : value.items()) print_lines(item, key.empty() ? name : key + "." + name);
+    for (const auto& [name, item] : value.items()) print_lines(item, entry_name(key, name));
     return;
   }
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
