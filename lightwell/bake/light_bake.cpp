@@ -60,7 +60,9 @@ struct Worker {
 };
 
 /// Photons of what flux a deposit of weight 1 stands for: the scene's power, which is also a photon's mean flux.
-float reference_flux(const TraceScene& scene) { return max_component(scene.lights().power()); }
+float reference_flux(const TraceScene& scene) {
+  return std::max(max_component(scene.lights().power()), scene.lights().total_weight());
+}
 
 Worker trace_photons(const TraceScene& scene, const Solids& solids, const GridShape& shape,
                      const LightBakeOptions& options, Progress& progress) {

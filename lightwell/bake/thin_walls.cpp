@@ -2,6 +2,7 @@
 #include "lightwell/bake/thin_walls.h"
 
 #include "lightwell/bake/tracks.h"
+#include "lightwell/light/stream.h"
 #include "lightwell/trace/lights.h"
 
 namespace lightwell {
@@ -69,8 +70,11 @@ GridShape grid_of_walls(const TraceScene& scene, int longest) {
     const std::vector<Wall> walls = walls_across(scene, region, axis, shape.cell[axis]);
     const auto missed_by = [&](int nodes) { return missed(walls, size[axis] / static_cast<float>(nodes - 1)); };
     const int fewest = shape.nodes[axis];
+    const size_t in_a_layer = shape.count() / static_cast<size_t>(fewest);
+    const int most = std::min({fewest + (fewest + 7) / 8, LightLayout::most_nodes_an_axis,
+                               static_cast<int>(LightLayout::most_nodes / in_a_layer)});
     int best = fewest;
-    for (int nodes = fewest + 1; nodes <= fewest + (fewest + 7) / 8; nodes++)
+    for (int nodes = fewest + 1; nodes <= most; nodes++)
       if (missed_by(nodes) + worth_a_node <= missed_by(best)) best = nodes;
     shape.nodes[axis] = best;
     shape.cell[axis] = size[axis] / static_cast<float>(best - 1);

@@ -51,6 +51,10 @@ class Client::Machine {
       opening_taken_ = true;
       return OpeningUpdate{download_.opening()};
     }
+    // Who takes pieces may stop when there is no room for more, so what all have to say of themselves comes before.
+    while (announced_ < refiners_.size())
+      if (std::optional<Update> update = refiners_[announced_++]->announce()) return update;
+    if (refiners_.size() < download_.directory().streams.size()) return std::nullopt;
     const size_t count = refiners_.size();
     for (size_t tried = 0; tried < count; tried++) {
       if (std::optional<Update> update = refiners_[turn_]->take(budget)) return update;
@@ -157,8 +161,9 @@ class Client::Machine {
   std::vector<float> weights_;
   std::vector<std::unique_ptr<Refiner>> refiners_;
   uint64_t budget_ = most_buffer_bytes;
-  size_t decoding_ = 0;  ///< the stream whose turn it is to be decoded
-  size_t turn_ = 0;      ///< the stream whose turn it is to hand over
+  size_t decoding_ = 0;   ///< the stream whose turn it is to be decoded
+  size_t announced_ = 0;  // refiners that have said what they are
+  size_t turn_ = 0;       ///< the stream whose turn it is to hand over
   bool checked_ = false;
   bool opening_taken_ = false;
   bool completed_ = false;

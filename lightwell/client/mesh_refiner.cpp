@@ -35,11 +35,11 @@ class MeshRefiner final : public Refiner {
 
   /// A batch of all changes since the last one. Its order keeps every moment drawable: the new vertices, the new faces,
   /// then old faces that may refer to the new vertices, and the draw count last.
+  std::optional<Update> announce() override {
+    return MeshUpdate{stream_, decoder_.layout().vertices, decoder_.layout().faces, attributes_};
+  }
+
   std::optional<Update> take(size_t budget) override {
-    if (!announced_) {
-      announced_ = true;
-      return MeshUpdate{stream_, decoder_.layout().vertices, decoder_.layout().faces, attributes_};
-    }
     if (changed_ && !batch_) start_batch();
     if (!batch_) return std::nullopt;
     if (!ranges_.empty()) return next_range(budget);
@@ -103,7 +103,6 @@ class MeshRefiner final : public Refiner {
   uint32_t stream_;
   MeshDecoder decoder_;
   std::vector<AttributeLayout> attributes_;
-  bool announced_ = false;
   bool changed_ = true;
   bool batch_ = false;               ///< a hand-over is under way
   std::vector<RangeUpdate> ranges_;  ///< what is left of it before the draw count, the next one last

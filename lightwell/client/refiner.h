@@ -27,6 +27,8 @@ class Refiner {
   virtual bool settle() { return false; }
   /// False when settle() has something to do.
   virtual bool settled() const { return true; }
+  /// What has to be known of the stream before a piece of any is handed over; asked for once.
+  virtual std::optional<Update> announce() { return std::nullopt; }
   /// The next piece to hand over, of at most about `budget` bytes; none when all is handed over.
   virtual std::optional<Update> take(size_t budget) = 0;
 

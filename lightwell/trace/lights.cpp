@@ -32,6 +32,9 @@ float range_window(const Lamp& lamp, float distance) {
   return std::max(0.0f, 1 - x * x * x * x);
 }
 
+/// Of a face's emission, where it changes over the area.
+constexpr int samples = 64;
+
 /// Of the scene's longest side: a cell or so of the usual grid.
 constexpr float open_margin = 0.04f;
 
@@ -59,9 +62,9 @@ Lights::Lights(const TraceScene& scene)
   lit_texels_ = {};
 }
 
-void Lights::add(Element element, const Vec3f& power) {
+void Lights::add(Element element, const Vec3f& power, float least_weight) {
   elements_.push_back(element);
-  weights_.push_back(mean(power));
+  weights_.push_back(std::max(mean(power), least_weight));
   luminaires_[static_cast<size_t>(element.luminaire)].power += power;
 }
 
@@ -97,7 +100,14 @@ void Lights::add_surface(uint32_t instance) {
     piece.center += t.at({{1.0f / 3, 1.0f / 3}}) * t.area;
     piece.normal += t.normal * t.area;
     piece.area += t.area;
-    add(element, mean_emission(element) * (pi * t.area * (double_sided ? 2.0f : 1.0f)));
+    if (!may_shine(element)) {
+      add(element, {});
+      continue;
+    }
+    // A face that may shine is never given up because all samples missed where it does.
+    const float spread = pi * t.area * (double_sided ? 2.0f : 1.0f);
+    const float least = scene_.is_uniform(instance) ? 0 : mean(scene_.material(instance).emission) / (4 * samples);
+    add(element, mean_emission(element) * spread, least * spread);
   }
   for (size_t i = first; i < luminaires_.size(); i++) {
     Luminaire& piece = luminaires_[i];
@@ -147,18 +157,13 @@ bool Lights::may_shine(const Element& element) {
   return lit_texels_.try_emplace(texture.image, scene_.scene().images[image]).first->second.any(texture, of_corners);
 }
 
-/// Over the face's area, by samples where a texture or alpha changes it: good enough to choose by. A face that may
-/// shine is never given up because all samples missed where it does.
-Vec3f Lights::mean_emission(const Element& element) {
-  const Material& material = scene_.material(element.instance);
-  if (material.emission_texture.image < 0 && material.alpha == Material::Alpha::opaque)
-    return emission(element, {{1.0f / 3, 1.0f / 3}});
-  if (!may_shine(element)) return {};
-  constexpr int samples = 64;
+/// Over the face's area, by samples where the material changes over it: good enough to choose by.
+Vec3f Lights::mean_emission(const Element& element) const {
+  if (scene_.is_uniform(element.instance)) return emission(element, {{1.0f / 3, 1.0f / 3}});
   Random random(element.instance, element.face);
   Vec3f sum{};
   for (int i = 0; i < samples; i++) sum += emission(element, sample_triangle(random));
-  return max(sum / samples, material.emission / (4 * samples));
+  return sum / samples;
 }
 
 Lights::Emission Lights::emit(Random& random) const {

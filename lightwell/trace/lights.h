@@ -37,6 +37,8 @@ class Lights {
   const std::vector<Luminaire>& luminaires() const { return luminaires_; }
   /// True when there is no light at all.
   bool dark() const { return choice_.total() <= 0; }
+  /// What sources are chosen by, summed up, W: about the mean of power(), and not 0 unless dark.
+  float total_weight() const { return static_cast<float>(choice_.total()); }
   /// False when the sum of all light is beyond a float.
   bool finite() const;
   /// Sum over all luminaires, W.
@@ -96,10 +98,10 @@ class Lights {
   void add_lamp(int index);
   void add_surface(uint32_t instance);
   void add_environment();
-  void add(Element element, const Vec3f& power);
+  void add(Element element, const Vec3f& power, float least_weight = 0);
   Triangle triangle(uint32_t instance, uint32_t face) const;
   Vec3f emission(const Element& element, Vec2f uv) const;
-  Vec3f mean_emission(const Element& element);
+  Vec3f mean_emission(const Element& element) const;
   bool may_shine(const Element& element);
   Emission emit_from_lamp(const Lamp& lamp, Random& random) const;
   Emission emit_from_surface(const Element& element, Random& random) const;

@@ -67,6 +67,9 @@ class TraceScene {
   /// False for deforming primitives, which are left out.
   bool traced(uint32_t instance) const { return placed_[instance].mesh != nullptr; }
 
+  /// True when the material is the same everywhere on the instance.
+  bool is_uniform(uint32_t instance) const { return placed_[instance].uniform; }
+
   /// The radiance that a hit surface sends back along the ray: that of its front, of both sides when double-sided.
   Vec3f emission(const Hit& hit, const Surface& surface) const;
   /// The interpolated vertex normal, unit, turned to the side that the ray came from; the geometric one where the mesh

@@ -130,9 +130,11 @@ Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::func
     perform(client, transport);
     listener.look(client, silence);
     const double now = transport.now();
-    if (now >= listener.end()) return fail("", listener.farewell());
     const double until = std::min({client.wake(), now + longest_wait, listener.end()});
-    if (const std::optional<TransportEvent> event = transport.wait(until)) {
+    const std::optional<TransportEvent> event = transport.wait(until);
+    // What waits is heard first: the process may have slept.
+    if (!event && transport.now() >= listener.end()) return fail("", listener.farewell());
+    if (event) {
       listener.hear(*event, transport.now());
       report(client, *event, transport.now());
       listener.look(client, reason_of(*event));

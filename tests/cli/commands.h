@@ -40,7 +40,8 @@ class Commands : public testing::Test {
   /// Sends a signal ("INT", "TERM") once the program has said `word` on stderr.
   Outcome interrupt(const std::string& arguments, const std::string& word, const std::string& signal) const {
     return run_in_shell(LIGHTWELL_PROGRAM " " + arguments + redirected() + " & until grep -q '" + word + "' " +
-                        path("stderr") + "; do kill -0 $! && sleep 0.02; done; kill -" + signal + " $!; wait $!");
+                        path("stderr") + "; do kill -0 $! 2>/dev/null || break; sleep 0.02; done; kill -" + signal +
+                        " $!; wait $!");
   }
   const fs::path& folder() const { return folder_; }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }

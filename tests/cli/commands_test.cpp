@@ -131,7 +131,6 @@ TEST_F(Commands, RenderProbeAndDiffAgree) {
   EXPECT_GT(points["points"][0]["stderr"], 0.0);
 }
 
-// In a furnace of albedo rho and emission Le every point receives pi Le rho / (1 - rho) of bounced light: pi here.
 // A pack says what its grid holds. A sky that it lacks would give no bounced light, so the grid cannot answer for it;
 // one that it holds as a map is not in the pack, and whoever follows paths must give it.
 TEST_F(Commands, AGridAnswersForTheSkyItWasBakedUnderOnly) {
@@ -153,6 +152,7 @@ TEST_F(Commands, AGridAnswersForTheSkyItWasBakedUnderOnly) {
   EXPECT_EQ(run("probe " + lit + points + "--integrator ivg --environment " + path("sky.hdr")).status, 0);
 }
 
+// In a furnace of albedo rho and emission Le every point receives pi Le rho / (1 - rho) of bounced light: pi here.
 TEST_F(Commands, ProbeMeasuresTheFurnace) {
   write("points.csv", "x,y,z,nx,ny,nz\n1,1,1,0,1,0\n0.7,0.6,1.3,1,0,0\n1.2,1.1,0.4,0.6,0,-0.8\n");
   for (const std::string integrator : {"path --spp 400", "ivg --photons 2M --grid 8"}) {
