@@ -98,17 +98,21 @@ Result<PackReader> PackReader::open_file(const std::string& path) {
   return reader;
 }
 
+// Only the headers are read: a folder may hold many packs with large openings.
 bool is_pack_file(const std::string& path) {
   const auto file = open_bytes(path);
-  std::vector<uint8_t> head;
-  for (uint64_t known = 0; file;) {
-    const auto size = measure_opening(head);
-    if (!size || size->opening_length > 0) return size.has_value();
-    const auto more =
-        size->needed <= file->length ? file->fetch(known, size->needed - known) : fail("", "is cut short");
-    if (!more) return false;
-    head.insert(head.end(), more->begin(), more->end());
-    known = head.size();
+  if (!file) return false;
+  const auto header = file->fetch(0, glb_header_bytes);
+  if (!header || ByteReader(*header).u32() != glb_magic) return false;
+  uint64_t at = glb_header_bytes;
+  for (const uint32_t expected : {chunk_json, chunk_bin, chunk_lwst}) {
+    const auto chunk = file->fetch(at, chunk_header_bytes);
+    if (!chunk) return false;
+    ByteReader reader(*chunk);
+    const uint32_t length = reader.u32(), type = reader.u32();
+    if (type == chunk_lwst) return at > glb_header_bytes;
+    if (type != expected) return false;
+    at += chunk_header_bytes + length;
   }
   return false;
 }

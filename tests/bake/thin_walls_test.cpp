@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lightwell/bake/light_bake.h"
+#include "lightwell/light/stream.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -52,6 +53,17 @@ TEST(ThinWalls, LeaveOtherGridsAlone) {
   const auto trace = traced(scene);
   for (const int nodes : {2, 5, 16, 32})
     EXPECT_EQ(grid_of_walls(*trace, nodes).nodes, GridShape::over(trace->lights().region(), nodes).nodes);
+}
+
+// A pack holds 256 nodes an axis and 2^22 in all; what walls add stays within.
+TEST(ThinWalls, StayWithinWhatAPackHolds) {
+  const Scene scene = two_closed_rooms();
+  const auto trace = traced(scene);
+  for (const int nodes : {200, 240, 256}) {
+    const GridShape plain = GridShape::over(trace->lights().region(), nodes), shape = grid_of_walls(*trace, nodes);
+    for (int axis = 0; axis < 3; axis++) EXPECT_LE(shape.nodes[axis], 256);
+    EXPECT_LE(shape.count(), std::max(plain.count(), LightLayout::most_nodes));
+  }
 }
 
 // Next to the wall, on floor, ceiling and walls of the dark room: nothing of the other room's light, which is pi

@@ -10,5 +10,5 @@ int main(int count, char** arguments) {
   auto outcome = fetch(client, **line, [](const Update& update) {
     if (auto* draw = std::get_if<DrawUpdate>(&update)) std::printf("%u triangles\n", draw->faces);
   });
-  return outcome ? 0 : 1;
+  if (!outcome) return std::fprintf(stderr, "%s\n", outcome.error().message().c_str()), 1;
 }

@@ -2,7 +2,7 @@
 //
 // Opens /pack.glb as any page with three.js would, and says how many triangles were drawn.
 import { Box3, PerspectiveCamera, Scene, Sphere, WebGLRenderer } from 'three';
-import { GLTFLoader } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 
 const renderer = new WebGLRenderer();
 const gltf = await new GLTFLoader().loadAsync('pack.glb');

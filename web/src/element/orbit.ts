@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Camera, type PerspectiveCamera, Sphere, Spherical, Vector3 } from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { LightwellScene } from '../three/scene.js';
 
 const TURN = Math.PI / 36;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type BufferGeometry, type LoadingManager, Mesh, type Object3D, type Texture } from 'three';
-import { type GLTF, GLTFLoader, type GLTFParser } from 'three/examples/jsm/loaders/GLTFLoader.js';
+import { type GLTF, GLTFLoader, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import type { PackExtensions, ProgressiveMeshExtension, ProgressiveTextureExtension } from './extensions.js';
 
 /** A primitive that a stream refines: the meshes that show it, one for each node. */
