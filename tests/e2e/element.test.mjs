@@ -9,6 +9,8 @@ import { complete } from './view.mjs';
 
 /** Shadows are drawn anew at most twice a second, so the last ones come so much behind the last triangles; milliseconds. */
 const LAST_SHADOWS = 600;
+/** Much longer than ten of the browser's frames and than any pause between two of the element's; milliseconds. */
+const LONG_REST = 3000;
 
 const folder = temporaryFolder();
 writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
@@ -48,11 +50,9 @@ const frames = (page, count) =>
 
 const picture = (page) => page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
 
-test('a still picture is not drawn again', async (t) => {
-  const { page } = await openView(t);
-  await page.waitForTimeout(LAST_SHADOWS);
-  await page.waitForFunction(() => document.querySelector('lightwell-view').frameRate === 0);
-  await page.evaluate(() => {
+/** Counts in `draws` what is drawn from now on. */
+const countDraws = (page) =>
+  page.evaluate(() => {
     globalThis.draws = 0;
     const { drawElements } = WebGL2RenderingContext.prototype;
     WebGL2RenderingContext.prototype.drawElements = function (...values) {
@@ -60,8 +60,23 @@ test('a still picture is not drawn again', async (t) => {
       return drawElements.apply(this, values);
     };
   });
+
+test('a still picture is not drawn again', async (t) => {
+  const { page } = await openView(t);
+  await page.waitForTimeout(LAST_SHADOWS);
+  await page.waitForFunction(() => document.querySelector('lightwell-view').frameRate === 0);
+  await countDraws(page);
   await frames(page, 10);
   assert.equal(await page.evaluate(() => globalThis.draws), 0);
+});
+
+test('a change after a long rest is drawn at once', async (t) => {
+  const { page } = await openView(t);
+  await page.waitForTimeout(LONG_REST);
+  await countDraws(page);
+  await page.evaluate(() => document.querySelector('lightwell-view').setAttribute('light', 'direct'));
+  await frames(page, 10);
+  assert.ok((await page.evaluate(() => globalThis.draws)) > 0);
 });
 
 test('keys turn, move and zoom', async (t) => {

@@ -9,6 +9,8 @@ const SHADOW_INTERVAL = 500;
 const MOST_PIXEL_RATIO = 2;
 /** Frames further apart than this are not one animation, in milliseconds. */
 const PAUSE = 250;
+/** What seems to take the GPU longer than this, in milliseconds, is taken for a page that was hidden meanwhile. */
+const LONGEST_FRAME = 5000;
 
 /** A canvas with renderer, scene and camera that draws a frame only when one is asked for. */
 export class Stage {
@@ -30,6 +32,7 @@ export class Stage {
   #drawn = -Infinity;
   #duration = 0;
   #fence: WebGLSync | null = null;
+  #fenceRequest = 0;
   #seldomRequest = 0;
   #shadowTime = -Infinity;
   #shadowTimer: ReturnType<typeof setTimeout> | undefined;
@@ -127,25 +130,33 @@ export class Stage {
     this.#gl.deleteSync(this.#fence);
     this.#fence = this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.#gl.flush();
+    this.#watchFence();
     this.afterFrame();
+  }
+
+  /** Looks in each of the browser's frames whether the GPU is done with the last one. */
+  #watchFence(): void {
+    cancelAnimationFrame(this.#fenceRequest);
+    if (this.#fence === null) return;
+    if (this.#gl.getSyncParameter(this.#fence, this.#gl.SYNC_STATUS) !== this.#gl.SIGNALED) {
+      this.#fenceRequest = requestAnimationFrame(() => this.#watchFence());
+      return;
+    }
+    this.#gl.deleteSync(this.#fence);
+    this.#fence = null;
+    this.#duration = Math.min(LONGEST_FRAME, performance.now() - this.#drawn);
   }
 
   /** Whether the GPU has been free for as long as the last frame took. */
   #rested(): boolean {
-    const now = performance.now();
-    if (this.#fence !== null) {
-      if (this.#gl.getSyncParameter(this.#fence, this.#gl.SYNC_STATUS) !== this.#gl.SIGNALED) return false;
-      this.#gl.deleteSync(this.#fence);
-      this.#fence = null;
-      this.#duration = now - this.#drawn;
-    }
-    return now >= this.#drawn + 2 * this.#duration;
+    return this.#fence === null && performance.now() >= this.#drawn + 2 * this.#duration;
   }
 
   dispose(): void {
     this.setRunning(false);
     clearTimeout(this.#shadowTimer);
     cancelAnimationFrame(this.#seldomRequest);
+    cancelAnimationFrame(this.#fenceRequest);
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }
