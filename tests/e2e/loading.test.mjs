@@ -22,6 +22,22 @@ globalThis.Worker = class extends Worker {
   terminate() { workers.alive--; super.terminate(); }
 };`;
 
+/** Runs in the page before its scripts: `objects` counts by its kind what the GPU holds. */
+const COUNT_OBJECTS = `globalThis.objects = {};
+for (const kind of ['Buffer', 'Texture', 'VertexArray']) {
+  const prototype = WebGL2RenderingContext.prototype;
+  const { ['create' + kind]: create, ['delete' + kind]: remove } = prototype;
+  objects[kind] = 0;
+  prototype['create' + kind] = function () { objects[kind]++; return create.call(this); };
+  prototype['delete' + kind] = function (object) { if (object) objects[kind]--; remove.call(this, object); };
+}`;
+
+/** Runs in the page before its scripts: `listeners` counts those that wait for signals to abort. */
+const COUNT_LISTENERS = `globalThis.listeners = 0;
+const { addEventListener: add, removeEventListener: remove } = AbortSignal.prototype;
+AbortSignal.prototype.addEventListener = function (...values) { listeners++; add.apply(this, values); };
+AbortSignal.prototype.removeEventListener = function (...values) { listeners--; remove.apply(this, values); };`;
+
 /** Runs in the page before its scripts: `failures` collects the element's errors, with the time. */
 const NOTE_FAILURES = `globalThis.failures = [];
 addEventListener('DOMContentLoaded', () =>
@@ -68,6 +84,18 @@ test('a load that another one follows is given up, though its server never answe
   await complete(page);
   assert.equal(await page.evaluate(() => globalThis.workers.alive), 1);
   assert.deepEqual(await page.evaluate(() => globalThis.failures), []);
+  assert.deepEqual(errors, []);
+});
+
+test('a pack that another one follows leaves nothing on the GPU and no listener', async (t) => {
+  const { page, errors } = await openPack(t, () => SMALL, COUNT_OBJECTS + COUNT_LISTENERS);
+  await complete(page);
+  const objects = () => page.evaluate(() => (document.querySelector('lightwell-view').draw(), globalThis.objects));
+  const first = await objects();
+  await setSource(page, '/small.lw.glb');
+  await complete(page);
+  assert.deepEqual(await objects(), first);
+  assert.equal(await page.evaluate(() => globalThis.listeners), 0);
   assert.deepEqual(errors, []);
 });
 

@@ -11,7 +11,7 @@ export class HandOver {
   readonly #camera = new Camera();
   readonly #target = new WebGLRenderTarget(1, 1, { depthBuffer: false });
   readonly #material = new MeshBasicMaterial();
-  readonly #doubles = new WeakMap<BufferGeometry, Mesh>();
+  readonly #doubles = new Map<BufferGeometry, Mesh>();
 
   constructor(renderer: WebGLRenderer) {
     this.#renderer = renderer;
@@ -28,6 +28,7 @@ export class HandOver {
   }
 
   dispose(): void {
+    for (const { geometry } of this.#doubles.values()) geometry.dispose();
     this.#target.dispose();
     this.#material.dispose();
   }

@@ -116,7 +116,6 @@ class Inbox {
   ) {
     this.#connection = connection;
     this.#signal = signal;
-    signal.addEventListener('abort', () => this.#look());
     connection.onEvent = (event) => {
       if (event.type === 'progress') onProgress?.(asProgressEvent(event.progress.bytes));
       if (event.type === 'connection') onConnection?.(event.state);
@@ -128,7 +127,7 @@ class Inbox {
   /** Takes the first event that is `wanted` out, after waiting for it; rejects when the connection fails or the load is aborted instead. */
   take<Event extends PackEvent>(wanted: (event: PackEvent) => event is Event): Promise<Event> {
     return new Promise((resolve, reject) => {
-      this.#look = () => {
+      const look = (this.#look = () => {
         const event = this.#events.find(wanted);
         const failure = this.#events.find((other) => other.type === 'failure');
         if (this.#signal.aborted) reject(this.#signal.reason);
@@ -138,8 +137,10 @@ class Inbox {
         } else if (failure !== undefined) reject(new PackError(failure.message, failure.reason));
         else return;
         this.#look = () => {};
-      };
-      this.#look();
+        this.#signal.removeEventListener('abort', look);
+      });
+      this.#signal.addEventListener('abort', look);
+      look();
     });
   }
 
