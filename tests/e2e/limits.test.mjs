@@ -20,7 +20,8 @@ const limit = (name, value) => `{
 
 const folder = temporaryFolder();
 const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 1_000);
-/** The sample's texture is of 256 x 256. */
+/** The sample's texture is of as many texels in width and height. */
+const SAMPLE = 256;
 const SMALL = 64;
 
 let browser;
@@ -53,4 +54,6 @@ test('a light grid too large for the GPU is refused in words', async (t) => {
   t.after(close);
   await page.goto(server.url);
   await notice(page, 'light grid .* GPU');
+  const largest = await page.evaluate(() => Math.max(0, ...globalThis.sizes));
+  assert.ok(largest < SAMPLE, `a texture of ${largest} texels was made for nothing`);
 });

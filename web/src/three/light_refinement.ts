@@ -22,13 +22,12 @@ export class LightRefinement implements Refinement {
   #waiting: Data3DTexture | null = null;
   #consumed = 0;
 
-  /** `light` has the state of the first frame. Throws when the GPU's 3D textures cannot be of the grid's size. */
+  /** `light` has the state of the first frame, in a size that `checkSize` lets pass. */
   constructor(light: LightwellLight, renderer: WebGLRenderer) {
     this.#light = light;
     this.#renderer = renderer;
     this.#hidden = atlasTexture(texelsOf(light.texture), light.definition);
     const { width, height, depth } = light.texture.image;
-    checkSize(width, height, depth, renderer);
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
     for (const texture of [light.texture, this.#hidden]) renderer.initTexture(texture);
   }
@@ -94,7 +93,9 @@ function texelsOf(texture: Data3DTexture): Uint16Array<ArrayBuffer> {
   return texture.image.data as Uint16Array<ArrayBuffer>;
 }
 
-function checkSize(width: number, height: number, depth: number, renderer: WebGLRenderer): void {
+/** Throws when the GPU's 3D textures cannot be of this one's size. */
+export function checkSize({ image }: Data3DTexture, renderer: WebGLRenderer): void {
+  const { width, height, depth } = image;
   const gl = renderer.getContext() as WebGL2RenderingContext;
   const most = gl.getParameter(gl.MAX_3D_TEXTURE_SIZE) as number;
   if (Math.max(width, height, depth) > most)

@@ -27,7 +27,7 @@ import {
 } from '../core/protocol.js';
 import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
-import { LightRefinement } from './light_refinement.js';
+import { checkSize, LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp } from './lamps.js';
 import { MeshRefinement } from './mesh_refinement.js';
 import { mostMaps, type Opening } from './opening.js';
@@ -85,7 +85,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   private constructor(
     opening: Opening,
     images: Map<number, TextureRefinement>,
-    lights: LightEvent[],
+    grids: LightwellLight[],
     connection: PackConnection,
     renderer: WebGLRenderer,
     options: SceneOptions,
@@ -101,14 +101,16 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
     this.bounds = finalBounds(opening);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
-    const grids = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
-    this.grids = grids.map((grid, i) => new LightwellLight(grid, lights[i]!.atlas));
-    for (const grid of this.grids) this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer));
+    this.grids = grids;
+    for (const grid of grids) this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer));
     this.lamps = this.#createLamps();
-    this.add(...this.grids, ...this.lamps);
+    this.add(...grids, ...this.lamps);
   }
 
-  /** Prepares what the loader read, with the first state of each of its grids in their order; later events of the connection go to `receive`. */
+  /**
+   * Prepares what the loader read, with the first state of each of its grids in their order; later events of the connection go to
+   * `receive`. Throws, before anything goes to the GPU, when a grid is too large for it.
+   */
   static async create(
     opening: Opening,
     lights: LightEvent[],
@@ -116,10 +118,13 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     renderer: WebGLRenderer,
     options: SceneOptions,
   ) {
+    const definitions = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
+    const grids = definitions.map((grid, i) => new LightwellLight(grid, lights[i]!.atlas));
+    for (const { texture } of grids) checkSize(texture, renderer);
     const images = new Map<number, TextureRefinement>();
     for (const [stream, { extension, textures }] of opening.images)
       images.set(stream, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
-    return new LightwellScene(opening, images, lights, connection, renderer, options);
+    return new LightwellScene(opening, images, grids, connection, renderer, options);
   }
 
   setStrategy(strategy: Strategy): void {
