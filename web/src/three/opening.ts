@@ -99,13 +99,14 @@ function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
   return images;
 }
 
-/** The textures of an object's materials, each once, with the meshes that show it. */
-function texturesOf(root: Object3D): Map<Texture, Mesh[]> {
-  const textures = new Map<Texture, Mesh[]>();
+/** The textures of an object's materials, with the meshes that show each; none is there twice. */
+function texturesOf(root: Object3D): Map<Texture, Set<Mesh>> {
+  const textures = new Map<Texture, Set<Mesh>>();
   root.traverse((object) => {
     if (!(object instanceof Mesh)) return;
     const values: (Texture | null)[] = [object.material].flat().flatMap((material) => Object.values(material));
-    for (const value of values) if (value?.isTexture === true) textures.set(value, [...(textures.get(value) ?? []), object]);
+    for (const value of values)
+      if (value?.isTexture === true) textures.set(value, (textures.get(value) ?? new Set()).add(object));
   });
   return textures;
 }
