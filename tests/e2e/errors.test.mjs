@@ -63,10 +63,20 @@ test('a file that is damaged: what has come stays', async (t) => {
 });
 
 test('a server that lets no other site read it', async (t) => {
-  const other = await startStaticServer({ '/packs/': folder }, { cors: false });
+  const other = await startStaticServer({ '/packs/': folder }, { cors: () => false });
   t.after(() => other.stop());
   const { page } = await openPack(t, { url: `${other.url}packs/pack.lw.glb` });
   await notice(page, '^This scene cannot be shown.*does not let pages of other sites read it');
+});
+
+test('a server that lets other sites read by GET alone, and fails once', async (t) => {
+  let asked = 0;
+  const cors = ({ method }) => method === 'GET' && asked++ > 0;
+  const other = await startStaticServer({ '/packs/': folder }, { cors });
+  t.after(() => other.stop());
+  const { page } = await openPack(t, { url: `${other.url}packs/pack.lw.glb` });
+  await complete(page);
+  assert.ok(asked > 1);
 });
 
 test('a server that is not there at first', async (t) => {

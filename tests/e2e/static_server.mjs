@@ -16,9 +16,9 @@ const TYPES = {
 /**
  * A plain web server for tests. `routes` maps a path, or the beginning of one that ends in a slash, to a file or folder, or to
  * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly;
- * `cors` false lets no page of another origin read; `port` 0 takes any.
+ * `cors` says of a request whether pages of other origins may read the answer; `port` 0 takes any.
  */
-export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], cors = true, port = 0 } = {}) {
+export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], cors = () => true, port = 0 } = {}) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
     void answer(routes, { ranges, wasmType, cors }, path, request, response);
@@ -34,7 +34,7 @@ export async function startStaticServer(routes, { ranges = true, wasmType = TYPE
 }
 
 async function answer(routes, { ranges, wasmType, cors }, path, request, response) {
-  if (cors) response.setHeader('Access-Control-Allow-Origin', '*');
+  if (cors(request)) response.setHeader('Access-Control-Allow-Origin', '*');
   response.setHeader('Access-Control-Expose-Headers', 'Content-Range, ETag, Accept-Ranges');
   response.setHeader('Cache-Control', 'no-store');
   const target = resolveRoute(routes, path);

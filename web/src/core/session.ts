@@ -160,11 +160,14 @@ export class PackSession {
     this.#requests.delete(request);
   }
 
-  /** Whether the server is there but lets no page of this origin read the file. Browsers do not tell that from a broken line. */
+  /**
+   * Whether the server is there but lets no page of this origin read the file. Browsers do not tell that from a broken line. It is
+   * asked for a byte as the client asks for bytes: to HEAD it may give other rights. Without them a range cannot be asked for.
+   */
   async #isForbidden(): Promise<boolean> {
     if (this.#answered || new URL(this.#url).origin === origin) return false;
-    const reach = (mode: RequestMode) => fetch(this.#url, { method: 'HEAD', mode }).then(() => true, () => false);
-    return (await reach('no-cors')) && !(await reach('cors'));
+    const reach = (init: RequestInit) => fetch(this.#url, init).then(({ body }) => (void body?.cancel(), true), () => false);
+    return (await reach({ method: 'HEAD', mode: 'no-cors' })) && !(await reach({ headers: { Range: 'bytes=0-0' } }));
   }
 
   #report(client: WasmClient, events: PackEvent[], time: number): void {
