@@ -7,7 +7,7 @@ namespace {
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
   const std::vector<std::string> rest = program.remaining(true);
-  const std::string reason = error.what();
+  std::string reason = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)
     return reason.substr(0, reason.find(':')) + ": takes one value";
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || rest.empty()) return reason;
