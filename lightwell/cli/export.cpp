@@ -63,7 +63,7 @@ CLI::App* add_export(CLI::App& program, Console& console, std::function<int()>& 
   CLI::App* command = program.add_subcommand("export", "Writes the geometry of a pack at a level as an ordinary file");
   command->add_option("pack", options->pack, "A pack")->required()->type_name("");
   add_output(*command, options->output, {".glb", ".ply"}, "FILE.glb, FILE.ply, or - for a GLB on stdout")->required();
-  add_level_option(*command, options->level, "Share of the final faces, 0 to 1");
+  add_level_option(*command, options->level, "The coarsest level with at least this share of the final faces, 0 to 1");
   add_number(*command, "--error", options->level.error, {0, 1e9},
              "Largest error in a mesh's own units, instead of a share");
   command->footer("Example:\n  lightwell export room.lw.glb --level 0.1 -o coarse.glb");

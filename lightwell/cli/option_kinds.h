@@ -39,7 +39,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, T& value, Nu
                         const std::string& help) {
   const auto take = [&value, range](const std::string& text) -> Result<void> {
     LW_TRY(number, parse_number(text, range));
-    value = static_cast<float>(number);
+    value = static_cast<T>(number);
     return {};
   };
   return add_text(command, name, "NUMBER", take, help);

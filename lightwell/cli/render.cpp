@@ -136,7 +136,8 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
       ->required();
   add_integrator_options(*command, options->render);
   add_picture_options(*command, *options);
-  add_level_option(*command, options->mesh_level, "Of a pack: share of the final faces, 0 to 1");
+  add_level_option(*command, options->mesh_level,
+                   "Of a pack: the coarsest level with at least this share of the faces, 0 to 1");
   add_number(*command, "--light-level", options->light_level.share, {0, 1},
              "Of a pack: share of the light grid's nodes, 0 to 1")
       ->default_str("1");

@@ -22,7 +22,7 @@ constexpr size_t longest_turn = 1u << 20;  // bytes sent for one connection befo
 class Session;
 
 /// What a session needs of its server.
-struct Household {
+struct Shared {
   const Catalog& catalog;
   const ServerOptions& options;
   std::set<Session*> sessions;
@@ -33,13 +33,13 @@ struct Household {
 /// One connection: a request, its answer, and again. Kept alive by the handlers that wait for it.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(tcp::socket socket, Household& household)
-      : household_(household), socket_(std::move(socket)), deadline_(socket_.get_executor()), buffer_(longest_header) {
-    household_.sessions.insert(this);
+  Session(tcp::socket socket, Shared& shared)
+      : shared_(shared), socket_(std::move(socket)), deadline_(socket_.get_executor()), buffer_(longest_header) {
+    shared_.sessions.insert(this);
   }
   ~Session() {
-    household_.sessions.erase(this);
-    household_.left();
+    shared_.sessions.erase(this);
+    shared_.left();
   }
 
   void start() {
@@ -71,7 +71,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void read_request() {
     parser_.emplace();
     parser_->header_limit(longest_header);
-    set_deadline(household_.options.idle);
+    set_deadline(shared_.options.idle);
     reading_ = true;
     http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
       self->reading_ = false;
@@ -92,7 +92,7 @@ class Session : public std::enable_shared_from_this<Session> {
     const RequestHead head{std::string(request.method_string()), std::string(request.target()),
                            field(http::field::range), field(http::field::if_range), field(http::field::if_none_match)};
     // A request with a body is answered and the connection closed, so the body need not be read.
-    send(answer_request(household_.catalog, head), request.keep_alive() && parser_->is_done());
+    send(answer_request(shared_.catalog, head), request.keep_alive() && parser_->is_done());
   }
 
   void send(Answer answer, bool keep_alive) {
@@ -102,10 +102,10 @@ class Session : public std::enable_shared_from_this<Session> {
     head_->version(11);
     head_->set(http::field::server, "lightwell");
     for (const auto& [name, value] : answer_.fields) head_->set(name, value);
-    head_->keep_alive(keep_alive && !household_.stopping);
+    head_->keep_alive(keep_alive && !shared_.stopping);
     if (answer_.status != 204 && answer_.status != 304) head_->content_length(answer_.length);
     serializer_.emplace(*head_);
-    set_deadline(household_.options.slow);
+    set_deadline(shared_.options.slow);
     http::async_write_header(socket_, *serializer_, [self = shared_from_this()](error_code error, size_t) {
       if (error) return self->close();
       self->send_body();
@@ -139,7 +139,7 @@ class Session : public std::enable_shared_from_this<Session> {
     progress_ += turn;
     if (progress_ >= least_progress) {
       progress_ = 0;
-      set_deadline(household_.options.slow);
+      set_deadline(shared_.options.slow);
     }
     socket_.async_wait(tcp::socket::wait_write, [self = shared_from_this()](error_code error) {
       if (error) return self->close();
@@ -150,7 +150,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void next_request() {
     answer_ = {};
     progress_ = 0;
-    if (household_.stopping) return close();
+    if (shared_.stopping) return close();
     return head_->keep_alive() ? read_request() : close_gently();
   }
 
@@ -158,7 +158,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void close_gently() {
     error_code ignored;
     socket_.shutdown(tcp::socket::shutdown_send, ignored);
-    set_deadline(std::min(household_.options.farewell, household_.options.idle));
+    set_deadline(std::min(shared_.options.grace, shared_.options.idle));
     drain();
   }
   void drain() {
@@ -169,7 +169,7 @@ class Session : public std::enable_shared_from_this<Session> {
     });
   }
 
-  Household& household_;
+  Shared& shared_;
   tcp::socket socket_;
   asio::steady_timer deadline_;
   beast::flat_buffer buffer_;
@@ -186,13 +186,13 @@ class Session : public std::enable_shared_from_this<Session> {
 class Server::Loop {
  public:
   Loop(const ServerOptions& options, Catalog catalog)
-      : options_(options), catalog_(std::move(catalog)), household_{catalog_, options_, {}, false, [this] {
-                                                                      on_left();
-                                                                    }} {}
+      : options_(options), catalog_(std::move(catalog)), shared_{catalog_, options_, {}, false, [this] {
+                                                                   on_left();
+                                                                 }} {}
 
   /// The sessions that are still there go down with io_, and have nobody to tell any more.
   ~Loop() {
-    household_.left = [] {};
+    shared_.left = [] {};
   }
 
   Result<void> listen() {
@@ -227,12 +227,12 @@ class Server::Loop {
 
  private:
   void accept() {
-    if (household_.stopping || accepting_ || household_.sessions.size() >= options_.max_connections) return;
+    if (shared_.stopping || accepting_ || shared_.sessions.size() >= options_.max_connections) return;
     accepting_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
       accepting_ = false;
-      if (household_.stopping) return;
-      if (!error) std::make_shared<Session>(std::move(socket), household_)->start();
+      if (shared_.stopping) return;
+      if (!error) std::make_shared<Session>(std::move(socket), shared_)->start();
       if (!error) return accept();
       // Out of descriptors: wait for better times.
       pause_.expires_after(std::chrono::milliseconds(100));
@@ -243,28 +243,28 @@ class Server::Loop {
   }
 
   void on_left() {
-    if (household_.stopping) return end_if_empty();
+    if (shared_.stopping) return end_if_empty();
     accept();
   }
 
   void begin_stop() {
-    household_.stopping = true;
+    shared_.stopping = true;
     error_code ignored;
     acceptor_.close(ignored);
-    const std::vector<Session*> sessions(household_.sessions.begin(), household_.sessions.end());
+    const std::vector<Session*> sessions(shared_.sessions.begin(), shared_.sessions.end());
     for (Session* session : sessions) session->finish();
-    pause_.expires_after(options_.farewell);
+    pause_.expires_after(options_.grace);
     pause_.async_wait([this](error_code) { io_.stop(); });
     end_if_empty();
   }
 
   void end_if_empty() {
-    if (household_.sessions.empty()) pause_.cancel();
+    if (shared_.sessions.empty()) pause_.cancel();
   }
 
   ServerOptions options_;
   Catalog catalog_;
-  Household household_;
+  Shared shared_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   asio::posix::stream_descriptor stop_event_{io_};

@@ -20,7 +20,7 @@ struct ServerOptions {
   size_t max_connections = 1024;             ///< more wait in the system's queue
   std::chrono::milliseconds idle{60000};     ///< for a whole request header, from the end of the response before it
   std::chrono::milliseconds slow{30000};     ///< for every 16 KB that a client has to take
-  std::chrono::milliseconds farewell{5000};  ///< for responses under way when the server is stopped
+  std::chrono::milliseconds grace{5000};     ///< for responses under way when the server is stopped
 };
 
 /// An HTTP/1.1 server for packs and the page: GET and HEAD with byte ranges, strong ETags and CORS. One thread,

@@ -98,7 +98,6 @@ void Lights::add_surface(uint32_t instance) {
     piece.double_sided = double_sided;
     piece.faces.push_back(face);
     piece.center += t.at({{1.0f / 3, 1.0f / 3}}) * t.area;
-    piece.normal += t.normal * t.area;
     piece.area += t.area;
     if (!may_shine(element)) {
       add(element, {});
@@ -112,7 +111,6 @@ void Lights::add_surface(uint32_t instance) {
   for (size_t i = first; i < luminaires_.size(); i++) {
     Luminaire& piece = luminaires_[i];
     if (piece.area > 0) piece.center *= 1 / piece.area;
-    piece.normal = normalized(piece.normal);
   }
 }
 

@@ -23,7 +23,6 @@ struct Luminaire {
   // Of a surface:
   std::vector<uint32_t> faces{};  ///< of the instance's mesh
   Vec3f center{};                 ///< mean over the area
-  Vec3f normal{};                 ///< mean over the area, unit
   float area = 0;                 ///< m2
   bool double_sided = false;
 };

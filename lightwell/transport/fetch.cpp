@@ -105,7 +105,7 @@ class Listener {
 
   /// When patience ends.
   double end() const { return heard_ + guard_.patience; }
-  std::string farewell() const {
+  std::string last_words() const {
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%g", guard_.patience);
     return (outage_.empty() ? silence : outage_) + "; gave up after " + seconds + " s";
@@ -133,7 +133,7 @@ Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::func
     const double until = std::min({client.wake(), now + longest_wait, listener.end()});
     const std::optional<TransportEvent> event = transport.wait(until);
     // What waits is heard first: the process may have slept.
-    if (!event && transport.now() >= listener.end()) return fail("", listener.farewell());
+    if (!event && transport.now() >= listener.end()) return fail("", listener.last_words());
     if (event) {
       listener.hear(*event, transport.now());
       report(client, *event, transport.now());
