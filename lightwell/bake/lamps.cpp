@@ -48,41 +48,63 @@ double extent(const Shape& shape) {
   return largest;
 }
 
-// The rectangle of the surface's own area in its plane, along its principal axes; none when it is not flat.
-std::optional<ClientLamp> as_rectangle(const Shape& shape) {
+// True when the surface lies in one plane and faces one way.
+bool is_flat(const Shape& shape) {
+  if (length(shape.normal_sum) < 0.999 * shape.area) return false;
   const Vec3d normal = normalized(shape.normal_sum);
   const double flat = 0.01 * extent(shape);
-  if (length(shape.normal_sum) < 0.999 * shape.area) return {};
-  for (const Vec3d& p : shape.points)
-    if (std::abs(dot(p - shape.center, normal)) > flat) return {};
+  return std::all_of(shape.points.begin(), shape.points.end(),
+                     [&](const Vec3d& p) { return std::abs(dot(p - shape.center, normal)) <= flat; });
+}
 
-  const Vec3d helper = std::abs(normal[1]) < 0.9 ? Vec3d{{0, 1, 0}} : Vec3d{{1, 0, 0}};
-  const Vec3d u = normalized(cross(helper, normal)), v = cross(normal, u);
-  // Second moments of the area: a triangle's are area / 12 (a a' + b b' + c c' + (a + b + c)(a + b + c)').
+// Second moments of a surface's area about its centre, in the plane of two directions.
+struct Moments {
   double uu = 0, uv = 0, vv = 0;
+};
+
+// A triangle's are area / 12 (a a' + b b' + c c' + (a + b + c)(a + b + c)').
+Moments second_moments(const Shape& shape, const Vec3d& u, const Vec3d& v) {
+  Moments sum;
   for (size_t i = 0; i < shape.facets.size(); i++) {
     const double weight = length(shape.facets[i].normal) / 12;
-    double sum_u = 0, sum_v = 0;
-    for (size_t corner = 0; corner < 3; corner++) {
-      const Vec3d from_center = shape.points[3 * i + corner] - shape.center;
-      const double a = dot(from_center, u), b = dot(from_center, v);
-      uu += weight * a * a, uv += weight * a * b, vv += weight * b * b;
-      sum_u += a, sum_v += b;
+    const Vec3d a = shape.points[3 * i] - shape.center;
+    const Vec3d b = shape.points[3 * i + 1] - shape.center;
+    const Vec3d c = shape.points[3 * i + 2] - shape.center;
+    for (const Vec3d& p : {a, b, c, a + b + c}) {
+      const double along_u = dot(p, u), along_v = dot(p, v);
+      sum.uu += weight * along_u * along_u;
+      sum.uv += weight * along_u * along_v;
+      sum.vv += weight * along_v * along_v;
     }
-    uu += weight * sum_u * sum_u, uv += weight * sum_u * sum_v, vv += weight * sum_v * sum_v;
   }
-  // A square's are the same in all directions: the axes of the room serve it.
+  return sum;
+}
+
+// The direction in the plane of a flat surface in which most of it lies far from the centre.
+Vec3d principal_axis(const Shape& shape, const Vec3d& normal) {
+  const Vec3d helper = std::abs(normal[1]) < 0.9 ? Vec3d{{0, 1, 0}} : Vec3d{{1, 0, 0}};
+  const Vec3d u = normalized(cross(helper, normal)), v = cross(normal, u);
+  const auto [uu, uv, vv] = second_moments(shape, u, v);
+  // A square's moments are the same in all directions: the axes of the room serve it.
   const bool round = std::hypot(uu - vv, 2 * uv) < 1e-3 * (uu + vv);
   const double angle = round ? 0 : std::atan2(2 * uv, uu - vv) / 2;
-  const Vec3d along = u * std::cos(angle) + v * std::sin(angle), across = cross(normal, along);
-  double half_u = 0, half_v = 0;
-  for (const Vec3d& p : shape.points) {
-    half_u = std::max(half_u, std::abs(dot(p - shape.center, along)));
-    half_v = std::max(half_v, std::abs(dot(p - shape.center, across)));
-  }
-  const double shrink =
-      std::sqrt(shape.area / std::max(4 * half_u * half_v, 1e-30));  // a disc covers pi/4 of its square
+  return u * std::cos(angle) + v * std::sin(angle);
+}
 
+double half_width(const Shape& shape, const Vec3d& direction) {
+  double widest = 0;
+  for (const Vec3d& p : shape.points) widest = std::max(widest, std::abs(dot(p - shape.center, direction)));
+  return widest;
+}
+
+// The rectangle of the surface's own area in its plane, along its principal axes; none when it is not flat.
+std::optional<ClientLamp> as_rectangle(const Shape& shape) {
+  if (!is_flat(shape)) return {};
+  const Vec3d normal = normalized(shape.normal_sum);
+  const Vec3d along = principal_axis(shape, normal), across = cross(normal, along);
+  const double half_u = half_width(shape, along), half_v = half_width(shape, across);
+  // The rectangle around it may be larger: a disc covers pi/4 of its square.
+  const double shrink = std::sqrt(shape.area / std::max(4 * half_u * half_v, 1e-30));
   ClientLamp lamp;
   lamp.kind = ClientLamp::Kind::rectangle;
   lamp.normal = normal.cast<float>();
