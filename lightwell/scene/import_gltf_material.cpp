@@ -58,7 +58,6 @@ class MaterialReader {
     material.metallic = factor(surface, "metallicFactor", 1, 1);
     material.roughness = factor(surface, "roughnessFactor", 1, 1);
     material.metallic_roughness_texture = lookup(member(surface, "metallicRoughnessTexture"));
-    material.specular = factor(extension(json_, "KHR_materials_specular"), "specularFactor", 1, 1);
     material.transmission = factor(extension(json_, "KHR_materials_transmission"), "transmissionFactor", 0, 1);
     if (extension(json_, "KHR_materials_unlit").is_object()) make_diffuse(material);
   }
@@ -67,7 +66,6 @@ class MaterialReader {
   static void make_diffuse(Material& material) {
     material.metallic = 0;
     material.roughness = 1;
-    material.specular = 0;
     material.metallic_roughness_texture = {};
   }
 

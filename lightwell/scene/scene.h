@@ -37,7 +37,6 @@ struct Material {
   float metallic = 1;
   float roughness = 1;
   TextureLookup metallic_roughness_texture;  ///< linear: green roughness, blue metallic
-  float specular = 1;                        ///< KHR_materials_specular: 0 is a purely Lambertian dielectric
   float transmission = 0;                    ///< KHR_materials_transmission, factor only
   Alpha alpha = Alpha::opaque;
   float alpha_cutoff = 0.5f;

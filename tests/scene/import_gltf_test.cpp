@@ -211,7 +211,7 @@ TEST(ImportGltf, MaterialsAreRead) {
         "metallicRoughnessTexture": {"index": 0, "extensions": {"KHR_texture_transform":
           {"offset": [1, 2], "scale": [3, 4], "rotation": 1.5707963267948966, "texCoord": 1}}}},
       "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8},
-        "KHR_materials_specular": {"specularFactor": 0.125}, "KHR_materials_transmission": {"transmissionFactor": 0.6}}
+        "KHR_materials_transmission": {"transmissionFactor": 0.6}}
     }, {"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}, "extensions": {"KHR_materials_unlit": {}}}])");
   document.json["scenes"] = Json::array({Json::object()});
   const std::vector<Material> materials = import(document).materials;
@@ -221,7 +221,6 @@ TEST(ImportGltf, MaterialsAreRead) {
   EXPECT_EQ(standard.emission, Vec3f{});
   EXPECT_EQ(standard.metallic, 1);
   EXPECT_EQ(standard.roughness, 1);
-  EXPECT_EQ(standard.specular, 1);
   EXPECT_EQ(standard.alpha, Material::Alpha::opaque);
   EXPECT_EQ(standard.base_color_texture.image, -1);
 
@@ -235,7 +234,6 @@ TEST(ImportGltf, MaterialsAreRead) {
   EXPECT_EQ(all.emission_texture.image, 2);
   EXPECT_EQ(all.metallic, 0.5f);
   EXPECT_EQ(all.roughness, 0.75f);
-  EXPECT_EQ(all.specular, 0.125f);
   EXPECT_EQ(all.transmission, 0.6f);
   EXPECT_EQ(all.base_color_texture.image, 0);
   EXPECT_EQ(all.base_color_texture.texcoord, 1);
@@ -250,7 +248,6 @@ TEST(ImportGltf, MaterialsAreRead) {
     EXPECT_NEAR(value, expected, 1e-6f);
 
   EXPECT_EQ(materials[2].alpha, Material::Alpha::blend);
-  EXPECT_EQ(materials[2].specular, 0);
   EXPECT_EQ(materials[2].metallic, 0);
 }
 

@@ -83,7 +83,6 @@ TEST_F(ObjTest, ReadsMaterialsOfFilesBelow) {
   const Material wood = material_named("warm_wood");
   EXPECT_EQ(wood.base_color, (Vec4f{{0.5f, 0.25f, 0.125f, 1}}));
   EXPECT_EQ(wood.metallic, 0);
-  EXPECT_EQ(wood.specular, 0);
   ASSERT_EQ(wood.base_color_texture.image, 0);
   EXPECT_EQ(scene.images[0].pixels, image.pixels);
   EXPECT_EQ(material_named("lamp").emission, (Vec3f{{20, 10, 5}}));
