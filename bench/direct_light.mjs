@@ -40,6 +40,6 @@ try {
   console.log(JSON.stringify({ direct_light_deltae_mean: mean, direct_light_deltae_p95: p95 }));
 } finally {
   await browser.close();
-  await server.stop();
+  await server.close();
   rmSync(folder, { recursive: true });
 }

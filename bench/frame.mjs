@@ -114,5 +114,5 @@ try {
   );
 } finally {
   await browser.close();
-  await server.stop();
+  await server.close();
 }

@@ -34,5 +34,5 @@ try {
   for (const line of await page.evaluate(() => globalThis.notes)) console.log(JSON.stringify(line));
 } finally {
   await browser.close();
-  await server.stop();
+  await server.close();
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
 import { WEB } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
 import { complete } from './view.mjs';
 
 /** Shadows are drawn anew at most twice a second, so the last ones come so much behind the last triangles; milliseconds. */
@@ -13,25 +15,12 @@ const LAST_SHADOWS = 600;
 const LONG_REST = 3000;
 
 const folder = temporaryFolder();
-writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
-let browser;
-let server;
-before(async () => {
-  browser = await launch();
-  server = await startStaticServer({
-    '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
-    '/pack.lw.glb': `${folder}/pack.lw.glb`,
-    '/': `${WEB}dist`,
-  });
-});
-after(async () => {
-  await browser.close();
-  await server.stop();
-});
+const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
+const browser = await forAllTests(launch());
+const server = await forAllTests(startStaticServer({ ...viewerPage('/pack.lw.glb'), '/pack.lw.glb': PACK }));
 
 async function openView(t) {
-  const opened = await openPage(browser);
-  t.after(opened.close);
+  const opened = await forTest(t, openPage(browser));
   await opened.page.goto(server.url);
   await complete(opened.page);
   return opened;

@@ -3,11 +3,12 @@
 // What cannot be shown is said in words. What a server that goes away does stands in stream.test.mjs.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
 import { complete, notice } from './view.mjs';
 
 const folder = temporaryFolder();
@@ -15,21 +16,13 @@ const PACK = readFileSync(writeSamplePack(`${folder}/pack.lw.glb`, 5_000));
 /** Of the sample's bytes, in the middle of a stream. */
 const DAMAGED = PACK.length - 1000;
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 /** The page with one pack, from a file that is put beside the good one or from another URL. */
 async function openPack(t, { bytes, url = '/packs/broken.lw.glb', init } = {}) {
   if (bytes !== undefined) writeFileSync(`${folder}/broken.lw.glb`, bytes);
-  const server = await startStaticServer({
-    '/': `${WEB}dist`,
-    '/packs/': folder,
-    '/packs.json': { text: JSON.stringify({ packs: [{ name: 'broken', url }] }), type: 'application/json' },
-  });
-  t.after(() => server.stop());
-  const { page, close, errors } = await openPage(browser, { init });
-  t.after(close);
+  const server = await forTest(t, startStaticServer({ ...viewerPage(url), '/packs/': folder }));
+  const { page, errors } = await forTest(t, openPage(browser, { init }));
   await page.goto(server.url);
   return { page, errors };
 }
@@ -63,8 +56,7 @@ test('a file that is damaged: what has come stays', async (t) => {
 });
 
 test('a server that lets no other site read it', async (t) => {
-  const other = await startStaticServer({ '/packs/': folder }, { cors: () => false });
-  t.after(() => other.stop());
+  const other = await forTest(t, startStaticServer({ '/packs/': folder }, { cors: () => false }));
   const { page } = await openPack(t, { url: `${other.url}packs/pack.lw.glb` });
   await notice(page, '^This scene cannot be shown.*does not let pages of other sites read it');
 });
@@ -72,8 +64,7 @@ test('a server that lets no other site read it', async (t) => {
 test('a server that lets other sites read by GET alone, and fails once', async (t) => {
   let asked = 0;
   const cors = ({ method }) => method === 'GET' && asked++ > 0;
-  const other = await startStaticServer({ '/packs/': folder }, { cors });
-  t.after(() => other.stop());
+  const other = await forTest(t, startStaticServer({ '/packs/': folder }, { cors }));
   const { page } = await openPack(t, { url: `${other.url}packs/pack.lw.glb` });
   await complete(page);
   assert.ok(asked > 1);
@@ -81,11 +72,10 @@ test('a server that lets other sites read by GET alone, and fails once', async (
 
 test('a server that is not there at first', async (t) => {
   const away = await startStaticServer({});
-  await away.stop();
+  await away.close();
   const { page } = await openPack(t, { url: `${away.url}packs/pack.lw.glb` });
   await notice(page, 'does not answer');
-  const back = await startStaticServer({ '/packs/': folder }, { port: Number(new URL(away.url).port) });
-  t.after(() => back.stop());
+  const back = await forTest(t, startStaticServer({ '/packs/': folder }, { port: Number(new URL(away.url).port) }));
   await complete(page);
   await notice(page, '');
 });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startServe } from './servers.mjs';
 import { startSlowRelay } from './slow_relay.mjs';
@@ -43,17 +44,12 @@ addEventListener('DOMContentLoaded', () => {
 const folder = temporaryFolder();
 const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 test('the light is there with the first frame, and no part of the picture is dark on the way', async (t) => {
-  const server = await startServe(PACK);
-  t.after(() => server.stop());
-  const relay = await startSlowRelay(server.url, SLOW);
-  t.after(relay.stop);
-  const { page, errors, close } = await openPage(browser, { init: WATCH_TILES });
-  t.after(close);
+  const server = await forTest(t, startServe(PACK));
+  const relay = await forTest(t, startSlowRelay(server.url, SLOW));
+  const { page, errors } = await forTest(t, openPage(browser, { init: WATCH_TILES }));
   await page.goto(relay.url);
   await complete(page);
   const frames = await page.evaluate(() => globalThis.frames);

@@ -2,8 +2,9 @@
 //
 // Many lamps and materials of many maps, on a GPU with the 16 texture units that WebGL2 promises.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { bake, temporaryFolder } from './packs.mjs';
 import { room, sphere, writeScene } from './scenes.mjs';
 import { startServe } from './servers.mjs';
@@ -70,17 +71,13 @@ function lampsOf(count) {
 }
 
 const folder = temporaryFolder();
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 async function open(t, name, material, lamps) {
   const shapes = [{ mesh: room(1.5), material: MAPS }, { mesh: sphere(0.4, 12), material }];
   const pack = bake(writeScene(`${folder}/${name}.gltf`, shapes, lampsOf(lamps)), `${folder}/${name}.lw.glb`);
-  const server = await startServe(pack);
-  t.after(() => server.stop());
-  const { page, errors, close } = await openPage(browser, { init: SIXTEEN_UNITS + NAME_TYPES });
-  t.after(close);
+  const server = await forTest(t, startServe(pack));
+  const { page, errors } = await forTest(t, openPage(browser, { init: SIXTEEN_UNITS + NAME_TYPES }));
   const warnings = [];
   page.on('console', (message) => message.type() === 'warning' && warnings.push(message.text()));
   await page.goto(server.url);

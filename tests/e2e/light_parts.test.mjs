@@ -4,8 +4,9 @@
 // two primitives of one mesh.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { bake, temporaryFolder } from './packs.mjs';
 import { sphere, writeScene } from './scenes.mjs';
 import { startServe } from './servers.mjs';
@@ -50,15 +51,11 @@ const shapes = [
 const scene = joinBalls(writeScene(`${folder}/balls.gltf`, shapes, [{ lamp: { type: 'directional', intensity: 2 }, at: [0, 3, 0], rotation: DOWN }]));
 const pack = bake(scene, `${folder}/balls.lw.glb`);
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 async function openBalls(t) {
-  const server = await startServe(pack);
-  t.after(() => server.stop());
-  const opened = await openPage(browser);
-  t.after(opened.close);
+  const server = await forTest(t, startServe(pack));
+  const opened = await forTest(t, openPage(browser));
   await opened.page.goto(server.url);
   await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('tone', 'none'));
   await complete(opened.page);

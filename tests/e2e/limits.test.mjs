@@ -2,8 +2,9 @@
 //
 // What a small GPU cannot hold is made smaller, or refused in words.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startServe } from './servers.mjs';
 import { complete, notice } from './view.mjs';
@@ -24,20 +25,11 @@ const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 1_000);
 const SAMPLE = 256;
 const SMALL = 64;
 
-let browser;
-let server;
-before(async () => {
-  browser = await launch();
-  server = await startServe(PACK);
-});
-after(async () => {
-  await browser.close();
-  await server.stop();
-});
+const browser = await forAllTests(launch());
+const server = await forAllTests(startServe(PACK));
 
 test('a texture too large for the GPU is shown as large as it can be', async (t) => {
-  const { page, errors, close } = await openPage(browser, { init: limit('MAX_TEXTURE_SIZE', SMALL) });
-  t.after(close);
+  const { page, errors } = await forTest(t, openPage(browser, { init: limit('MAX_TEXTURE_SIZE', SMALL) }));
   await page.goto(server.url);
   await complete(page);
   const largest = await page.evaluate(() => Math.max(...globalThis.sizes));
@@ -50,8 +42,7 @@ test('a texture too large for the GPU is shown as large as it can be', async (t)
 });
 
 test('a light grid too large for the GPU is refused in words', async (t) => {
-  const { page, close } = await openPage(browser, { init: limit('MAX_3D_TEXTURE_SIZE', SMALL) });
-  t.after(close);
+  const { page } = await forTest(t, openPage(browser, { init: limit('MAX_3D_TEXTURE_SIZE', SMALL) }));
   await page.goto(server.url);
   await notice(page, 'light grid .* GPU');
   const largest = await page.evaluate(() => Math.max(0, ...globalThis.sizes));

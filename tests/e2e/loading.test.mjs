@@ -3,11 +3,12 @@
 // How a load begins and ends: what is given up, what is said when it fails, and when it is tried anew.
 import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
 import { complete, notice } from './view.mjs';
 
 const folder = temporaryFolder();
@@ -44,23 +45,18 @@ addEventListener('DOMContentLoaded', () =>
   document.querySelector('lightwell-view').addEventListener('error', ({ detail }) =>
     failures.push({ ...detail, time: performance.now() })));`;
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 /** The page with the pack that `packFile` names for each request of /pack.lw.glb; small.lw.glb lies beside it. */
 async function openPack(t, packFile, init = '') {
-  const server = await startStaticServer({
-    '/': `${WEB}dist`,
-    '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
+  const server = await forTest(t, startStaticServer({
+    ...viewerPage('/pack.lw.glb'),
     '/small.lw.glb': SMALL,
     get '/pack.lw.glb'() {
       return packFile();
     },
-  });
-  t.after(server.stop);
-  const opened = await openPage(browser, { init: NOTE_FAILURES + init });
-  t.after(opened.close);
+  }));
+  const opened = await forTest(t, openPage(browser, { init: NOTE_FAILURES + init }));
   await opened.page.goto(server.url);
   return opened;
 }

@@ -2,9 +2,10 @@
 import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import { readFile } from 'node:fs/promises';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
 import { ROOT, three } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { startStaticServer } from './static_server.mjs';
 import { scriptPage } from './test_page.mjs';
 
@@ -17,9 +18,7 @@ const STOCK_CHUNKS = {
   lights_fragment_maps: 'b36fa0d94fd78dc3',
 };
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 test('the chunks of three.js are those that the lookup was written for', () => {
   for (const [name, expected] of Object.entries(STOCK_CHUNKS)) {
@@ -30,9 +29,8 @@ test('the chunks of three.js are those that the lookup was written for', () => {
 
 test('a material receives the irradiance that light/ computes, wherever the grid stands', async (t) => {
   const fixture = JSON.parse(await readFile(`${ROOT}tests/data/light/lookup.json`, 'utf8'));
-  const server = await startStaticServer(await scriptPage('tests/e2e/pages/lookup.ts'));
-  t.after(() => server.stop());
-  const { page, errors } = await openPage(browser);
+  const server = await forTest(t, startStaticServer(await scriptPage('tests/e2e/pages/lookup.ts')));
+  const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);
   await page.waitForFunction(() => globalThis.run !== undefined);
   const measured = await page.evaluate((input) => globalThis.run(input), fixture);
@@ -54,9 +52,8 @@ test('a material receives the irradiance that light/ computes, wherever the grid
 });
 
 test('a grid of three.js’s own lights as before', async (t) => {
-  const server = await startStaticServer(await scriptPage('tests/e2e/pages/stock_grid.ts'));
-  t.after(() => server.stop());
-  const { page, errors } = await openPage(browser);
+  const server = await forTest(t, startStaticServer(await scriptPage('tests/e2e/pages/stock_grid.ts')));
+  const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);
   await page.waitForFunction(() => globalThis.run !== undefined);
   const { stock, patched } = await page.evaluate(() => globalThis.run());

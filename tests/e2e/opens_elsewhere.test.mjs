@@ -4,9 +4,10 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
 import { NodeIO, validateBytes } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { BIN, temporaryFolder } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
 import { scriptPage } from './test_page.mjs';
@@ -15,9 +16,7 @@ const folder = temporaryFolder();
 const pack = `${folder}/box.lw.glb`;
 execFileSync(`${BIN}/lightwell`, ['bake', 'box-small', '-o', pack, '--photons', '100000', '--grid', '8', '--quiet']);
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 test('gltf-validator finds no error', async () => {
   const { issues } = await validateBytes(new Uint8Array(readFileSync(pack)));
@@ -32,10 +31,8 @@ test('glTF-Transform reads the coarse scene', async () => {
 });
 
 test('the GLTFLoader of three.js shows the coarse scene', async (t) => {
-  const server = await startStaticServer({ ...(await scriptPage('tests/e2e/pages/plain_gltf.ts')), '/pack.glb': pack });
-  t.after(() => server.stop());
-  const { page, errors, close } = await openPage(browser);
-  t.after(close);
+  const server = await forTest(t, startStaticServer({ ...(await scriptPage('tests/e2e/pages/plain_gltf.ts')), '/pack.glb': pack }));
+  const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);
   await page.waitForFunction(() => globalThis.triangles !== undefined);
   assert.ok((await page.evaluate(() => globalThis.triangles)) > 10);

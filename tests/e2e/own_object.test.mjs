@@ -1,35 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
-import { scriptPage } from './test_page.mjs';
+import { CLIENT, scriptPage } from './test_page.mjs';
 
 const folder = temporaryFolder();
-writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
+const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
 
-let browser;
-let server;
-before(async () => {
-  browser = await launch();
-  server = await startStaticServer({
-    ...(await scriptPage('web/examples/own_object.ts')),
-    '/pack.lw.glb': `${folder}/pack.lw.glb`,
-    '/worker.js': `${WEB}dist/worker.js`,
-    '/lightwell.wasm': `${WEB}dist/lightwell.wasm`,
-  });
-});
-after(async () => {
-  await browser.close();
-  await server.stop();
-});
+const script = await scriptPage('web/examples/own_object.ts');
+const browser = await forAllTests(launch());
+const server = await forAllTests(startStaticServer({ ...script, ...CLIENT, '/pack.lw.glb': PACK }));
 
 /** Opens the example and waits until its pack is complete. */
 async function openExample(t) {
-  const opened = await openPage(browser);
-  t.after(opened.close);
+  const opened = await forTest(t, openPage(browser));
   await opened.page.goto(server.url);
   await opened.page.waitForFunction(() => document.title === 'complete');
   await opened.page.evaluate(MEASURE);

@@ -4,12 +4,12 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { writeFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { bake, BIN, temporaryFolder } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
-import { scriptPage } from './test_page.mjs';
+import { CLIENT, scriptPage } from './test_page.mjs';
 import { complete } from './view.mjs';
 
 /** CIEDE2000; 1 is just visible. What remains are fetches with weights of 8 bits, and 8-bit colours. */
@@ -20,20 +20,12 @@ const folder = temporaryFolder();
 const PACK = bake('box-small', `${folder}/box.lw.glb`, { photons: 200_000, grid: 16 });
 const lightwell = (...options) => execFileSync(`${BIN}/lightwell`, [...options, '--quiet'], { encoding: 'utf8' });
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 test('indirect light looks as in lightwell render', async (t) => {
-  const server = await startStaticServer({
-    ...(await scriptPage('tests/e2e/pages/lambert.ts')),
-    '/pack.lw.glb': PACK,
-    '/worker.js': `${WEB}dist/worker.js`,
-    '/lightwell.wasm': `${WEB}dist/lightwell.wasm`,
-  });
-  t.after(() => server.stop());
-  const { page, errors, close } = await openPage(browser);
-  t.after(close);
+  const script = await scriptPage('tests/e2e/pages/lambert.ts');
+  const server = await forTest(t, startStaticServer({ ...script, ...CLIENT, '/pack.lw.glb': PACK }));
+  const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);
   await complete(page);
   const url = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());

@@ -20,7 +20,7 @@ export async function startServe(path, port = 0) {
   const { url } = JSON.parse(line);
   return {
     url,
-    stop(signal = 'SIGTERM') {
+    close(signal = 'SIGTERM') {
       child.kill(signal);
       return ended;
     },
@@ -39,7 +39,7 @@ export async function startNginx(folder, scratch) {
   await listening(url);
   return {
     url,
-    stop() {
+    close() {
       child.kill('SIGTERM');
       return ended;
     },

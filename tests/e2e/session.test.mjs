@@ -3,12 +3,12 @@
 // The worker's session without a browser: it drives the WebAssembly client over Node's own fetch.
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { setTimeout as sleep } from 'node:timers/promises';
-import { WEB } from './dependencies.mjs';
+import { forAllTests } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startStaticServer } from './static_server.mjs';
-import { bundle } from './test_page.mjs';
+import { bundle, CLIENT } from './test_page.mjs';
 
 const folder = temporaryFolder();
 writeSamplePack(`${folder}/pack.lw.glb`, 2_000);
@@ -18,9 +18,7 @@ const { PackSession } = await import(`${folder}/session.mjs`);
 /** Longer than a session leaves a client alone that has something to do; milliseconds. */
 const REST = 300;
 
-let server;
-before(async () => (server = await startStaticServer({ '/': folder, '/lightwell.wasm': `${WEB}dist/lightwell.wasm` })));
-after(() => server.stop());
+const server = await forAllTests(startStaticServer({ ...CLIENT, '/': folder }));
 
 /** Starts a session: `events` collects what it says, `ended` resolves with its completion or failure. */
 function startSession(t) {

@@ -2,13 +2,13 @@
 //
 // A convex object under an even sky of radiance L: every point of a matt one shows albedo * L, of a metal one colour * L.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
+import { forAllTests } from './lifetime.mjs';
 import { bake, temporaryFolder } from './packs.mjs';
 import { sphere, writeScene } from './scenes.mjs';
 import { startStaticServer } from './static_server.mjs';
-import { scriptPage } from './test_page.mjs';
+import { CLIENT, scriptPage } from './test_page.mjs';
 
 const SKY = 0.5;
 /** Where the spheres stand: so far apart that one takes less than 1 % of the other's sky. */
@@ -33,34 +33,21 @@ const PACK = bake(
   { environment: `${SKY},${SKY},${SKY}`, photons: 400_000, grid: 24 },
 );
 
-let browser;
-let server;
-let opened;
-before(async () => {
-  browser = await launch();
-  server = await startStaticServer({
-    ...(await scriptPage('tests/e2e/pages/sky.ts')),
-    '/pack.lw.glb': PACK,
-    '/worker.js': `${WEB}dist/worker.js`,
-    '/lightwell.wasm': `${WEB}dist/lightwell.wasm`,
-  });
-  opened = await openPage(browser);
-  await opened.page.goto(server.url);
-  await opened.page.waitForFunction(() => document.title === 'complete');
-});
-after(async () => {
-  await browser.close();
-  await server.stop();
-});
+const script = await scriptPage('tests/e2e/pages/sky.ts');
+const browser = await forAllTests(launch());
+const server = await forAllTests(startStaticServer({ ...script, ...CLIENT, '/pack.lw.glb': PACK }));
+const { page, errors } = await openPage(browser);
+await page.goto(server.url);
+await page.waitForFunction(() => document.title === 'complete');
 
 /** Compares what the sphere shows with its colour times the sky. */
 async function assertShows({ x, color }, sky) {
-  const shown = await opened.page.evaluate(([at, radiance]) => globalThis.radiance(at, radiance), [x, sky]);
+  const shown = await page.evaluate(([at, radiance]) => globalThis.radiance(at, radiance), [x, sky]);
   shown.forEach((value, channel) => {
     const expected = color[channel] * SKY;
     assert.ok(Math.abs(value / expected - 1) < TOLERANCE, `${shown}, not ${color.map((part) => part * SKY)}`);
   });
-  assert.deepEqual(opened.errors, []);
+  assert.deepEqual(errors, []);
 }
 
 test('a matt object shows the light of the sky', () => assertShows(MATT, null));

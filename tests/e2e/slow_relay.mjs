@@ -37,7 +37,7 @@ export async function startSlowRelay(target, rate) {
   await new Promise((resolve) => relay.listen(0, '127.0.0.1', resolve));
   return {
     url: `http://127.0.0.1:${relay.address().port}/`,
-    stop: () => {
+    close: () => {
       relay.closeAllConnections();
       return new Promise((resolve) => relay.close(resolve));
     },

@@ -26,7 +26,7 @@ export async function startStaticServer(routes, { ranges = true, wasmType = TYPE
   await new Promise((resolve) => server.listen(port, '127.0.0.1', resolve));
   return {
     url: `http://127.0.0.1:${server.address().port}/`,
-    stop: () => {
+    close: () => {
       server.closeAllConnections();
       return new Promise((resolve) => server.close(resolve));
     },

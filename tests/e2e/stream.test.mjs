@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { copyFileSync, mkdirSync, renameSync, statSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startNginx, startServe } from './servers.mjs';
 import { startSlowRelay } from './slow_relay.mjs';
 import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
 import { complete, loaded, notice, pauseAfter, paused, progress, resume } from './view.mjs';
 
 const folder = temporaryFolder();
@@ -18,26 +19,13 @@ const OTHER = writeSamplePack(`${folder}/other.lw.glb`, 150_000);
 /** Bytes a second of each response, where a test has to act in mid-stream. */
 const SLOW = 100_000;
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
-/** The page with packs that lie at `base`, on a server of its own. */
-function pageRoutes(names, base = '/packs/') {
-  const packs = names.map((name) => ({ name, url: `${base}${name}` }));
-  return {
-    '/': `${WEB}dist`,
-    '/packs/': folder,
-    '/packs.json': { text: JSON.stringify({ packs }), type: 'application/json' },
-  };
-}
-
-async function staticPage(t, names, { base, init, slowly = false, ...options } = {}) {
-  let server = await startStaticServer(pageRoutes(names, base), options);
-  t.after(server.stop);
-  if (slowly) t.after((server = await startSlowRelay(server.url, SLOW)).stop);
-  const opened = await openPage(browser, { init });
-  t.after(() => opened.close());
+/** The page with a pack that lies at `base`, on a server of its own. */
+async function staticPage(t, name, { base = '/packs/', init, slowly = false, ...options } = {}) {
+  let server = await forTest(t, startStaticServer({ ...viewerPage(`${base}${name}`), '/packs/': folder }, options));
+  if (slowly) server = await forTest(t, startSlowRelay(server.url, SLOW));
+  const opened = await forTest(t, openPage(browser, { init }));
   await opened.page.goto(server.url);
   return opened;
 }
@@ -51,31 +39,28 @@ async function assertComplete(page, file) {
 }
 
 test('the page streams a pack to completion from lightwell serve', async (t) => {
-  const server = await startServe(SMALL);
-  t.after(() => server.stop());
-  const { page, errors, close } = await openPage(browser);
-  t.after(close);
+  const server = await forTest(t, startServe(SMALL));
+  const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);
   await assertComplete(page, SMALL);
   assert.deepEqual(errors, []);
 });
 
 test('and from nginx of another origin', async (t) => {
-  const nginx = await startNginx(folder, `${folder}/nginx`);
-  t.after(() => nginx.stop());
-  const { page, errors } = await staticPage(t, ['small.lw.glb'], { base: nginx.url });
+  const nginx = await forTest(t, startNginx(folder, `${folder}/nginx`));
+  const { page, errors } = await staticPage(t, 'small.lw.glb', { base: nginx.url });
   await assertComplete(page, SMALL);
   assert.deepEqual(errors, []);
 });
 
 test('from a server without ranges, and with a wrong type of WebAssembly', async (t) => {
-  const { page, errors } = await staticPage(t, ['small.lw.glb'], { ranges: false, wasmType: 'application/octet-stream' });
+  const { page, errors } = await staticPage(t, 'small.lw.glb', { ranges: false, wasmType: 'application/octet-stream' });
   await assertComplete(page, SMALL);
   assert.deepEqual(errors, []);
 });
 
 test('without a worker', async (t) => {
-  const { page, errors } = await staticPage(t, ['small.lw.glb'], {
+  const { page, errors } = await staticPage(t, 'small.lw.glb', {
     init: `globalThis.Worker = class { constructor() { throw new Error('forbidden'); } };`,
   });
   await assertComplete(page, SMALL);
@@ -83,7 +68,7 @@ test('without a worker', async (t) => {
 });
 
 test('each strategy ends in the same state', async (t) => {
-  const { page } = await staticPage(t, ['small.lw.glb']);
+  const { page } = await staticPage(t, 'small.lw.glb');
   const totals = new Set();
   for (const strategy of ['geometry', 'light', 'interleave']) {
     await page.evaluate((value) => {
@@ -97,20 +82,17 @@ test('each strategy ends in the same state', async (t) => {
 });
 
 test('a server that dies is waited for, what has come is kept', async (t) => {
-  let server = await startServe(LARGE);
-  t.after(() => server.stop());
-  const relay = await startSlowRelay(server.url, SLOW);
-  t.after(relay.stop);
-  const { page, errors, close } = await openPage(browser, { init: pauseAfter(100_000) });
-  t.after(close);
+  const server = await forTest(t, startServe(LARGE));
+  const relay = await forTest(t, startSlowRelay(server.url, SLOW));
+  const { page, errors } = await forTest(t, openPage(browser, { init: pauseAfter(100_000) }));
   await page.goto(relay.url);
   await paused(page);
   const { faces } = await progress(page);
-  await server.stop('SIGKILL');
+  await server.close('SIGKILL');
   await resume(page);
   await notice(page, 'does not answer');
   assert.ok((await progress(page)).faces.done >= faces.done);
-  server = await startServe(LARGE, Number(new URL(server.url).port));
+  await forTest(t, startServe(LARGE, Number(new URL(server.url).port)));
   await assertComplete(page, LARGE);
   await notice(page, '');
   assert.deepEqual(errors, []);
@@ -120,7 +102,7 @@ test('a file that is replaced in mid-stream is said and loaded anew', async (t) 
   mkdirSync(`${folder}/changing`);
   const file = `${folder}/changing/large.lw.glb`;
   copyFileSync(LARGE, file);
-  const { page, errors } = await staticPage(t, ['large.lw.glb'], { base: '/packs/changing/', init: pauseAfter(100_000), slowly: true });
+  const { page, errors } = await staticPage(t, 'large.lw.glb', { base: '/packs/changing/', init: pauseAfter(100_000), slowly: true });
   await paused(page);
   copyFileSync(OTHER, `${file}.new`);
   renameSync(`${file}.new`, file);
@@ -136,7 +118,7 @@ test('a file that is replaced in mid-stream is said and loaded anew', async (t) 
 });
 
 test('the camera is in the address', async (t) => {
-  const { page } = await staticPage(t, ['small.lw.glb']);
+  const { page } = await staticPage(t, 'small.lw.glb');
   await loaded(page);
   await page.evaluate(() => (document.querySelector('lightwell-view').view = { theta: 0.5, phi: 1, radius: 3, target: [0, 1, 0] }));
   await page.waitForFunction(() => location.hash.includes('view=0.5,1,3,0,1,0'));

@@ -2,6 +2,15 @@
 import { glslPlugin } from '../../web/glsl_plugin.mjs';
 import { build, ROOT, WEB } from './dependencies.mjs';
 
+/** Routes of Lightwell's own page with the pack of a URL. */
+export function viewerPage(url) {
+  const packs = [{ name: url.split('/').at(-1), url }];
+  return { '/': `${WEB}dist`, '/packs.json': { text: JSON.stringify({ packs }), type: 'application/json' } };
+}
+
+/** Routes of what a script that shows packs loads by itself. */
+export const CLIENT = { '/worker.js': `${WEB}dist/worker.js`, '/lightwell.wasm': `${WEB}dist/lightwell.wasm` };
+
 /** Bundles a script of tests/e2e/pages/ or web/examples/, with three.js; gives its text. */
 export async function bundle(path) {
   const result = await build({

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startServe } from './servers.mjs';
 import { complete } from './view.mjs';
@@ -13,22 +14,13 @@ const STEPS = 5;
 /** Rounding of sines and cosines, relative. */
 const SAME = 1e-6;
 
-let browser;
-let server;
-before(async () => {
-  browser = await launch();
-  server = await startServe(PACK);
-});
-after(async () => {
-  await browser.close();
-  await server.stop();
-});
+const browser = await forAllTests(launch());
+const server = await forAllTests(startServe(PACK));
 
 /** A phone's page, and what moves fingers on it: each goes from one place to another, as parts of the screen. */
 async function openPhone(t) {
   const size = { width: 195, height: 422 };
-  const { page, errors, close } = await openPage(browser, { ...size, hasTouch: true });
-  t.after(close);
+  const { page, errors } = await forTest(t, openPage(browser, { ...size, hasTouch: true }));
   await page.goto(server.url);
   await complete(page);
   const session = await page.context().newCDPSession(page);

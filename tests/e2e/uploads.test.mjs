@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
-import { WEB } from './dependencies.mjs';
 import { RECORD_GL } from './gl_recorder.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
 import { bake, temporaryFolder, writeSamplePack } from './packs.mjs';
 import { sphere, writeScene } from './scenes.mjs';
 import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
 import { complete } from './view.mjs';
 
 const BYTES_PER_FRAME = 256 * 1024;
@@ -31,20 +32,12 @@ const BALLS = 40;
 const folder = temporaryFolder();
 const LARGE = writeSamplePack(`${folder}/large.lw.glb`, 200_000);
 
-let browser;
-before(async () => (browser = await launch()));
-after(() => browser.close());
+const browser = await forAllTests(launch());
 
 /** Shows a pack to its end. Gives the bytes that each frame was handed, the names of what was allocated, and the levels shown. */
 async function stream(t, file) {
-  const server = await startStaticServer({
-    '/': `${WEB}dist`,
-    '/pack.lw.glb': file,
-    '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
-  });
-  t.after(() => server.stop());
-  const { page, errors, close } = await openPage(browser, { init: RECORD_GL + RECORD_FROM_OPENING });
-  t.after(close);
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/pack.lw.glb'), '/pack.lw.glb': file }));
+  const { page, errors } = await forTest(t, openPage(browser, { init: RECORD_GL + RECORD_FROM_OPENING }));
   await page.goto(server.url);
   await complete(page);
   assert.deepEqual(errors, []);

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { launch, LLVMPIPE, openPage, SWIFTSHADER } from './browser.mjs';
 import { RECORD_GL } from './gl_recorder.mjs';
+import { forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startServe } from './servers.mjs';
 import { complete } from './view.mjs';
@@ -12,10 +13,8 @@ const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
 
 /** Shows edges, surfaces and edges again: the three pictures, and what each made the GPU allocate. */
 async function toggle(t, renderer) {
-  const browser = await launch(renderer);
-  t.after(() => browser.close());
-  const server = await startServe(PACK);
-  t.after(() => server.stop());
+  const browser = await forTest(t, launch(renderer));
+  const server = await forTest(t, startServe(PACK));
   const { page, errors } = await openPage(browser, { init: RECORD_GL });
   await page.goto(server.url);
   await complete(page);
