@@ -29,10 +29,11 @@ void add_grid_option(CLI::App& command, int& nodes) {
 void add_environment_option(CLI::App& command, std::string& environment) {
   const auto take = [&environment](const std::string& text) -> Result<void> {
     std::error_code unknown;
-    if (!parse_color(text) && !std::filesystem::exists(text, unknown))
-      return fail(text, "is neither R,G,B (three numbers that are not negative, such as 1,1,1) nor the name of a file");
     environment = text;
-    return {};
+    if (parse_color(text) || std::filesystem::exists(text, unknown)) return {};
+    const std::string color = "R,G,B (three numbers that are not negative, such as 1,1,1)";
+    if (text.find(',') == std::string::npos) return fail(text, "no such file, and it is not " + color);
+    return fail(text, "is neither " + color + " nor the name of a file");
   };
   add_text(command, "--environment", "R,G,B|FILE", take, "Light from all around: radiance, or a Radiance .hdr file");
 }

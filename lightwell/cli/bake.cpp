@@ -103,11 +103,7 @@ nlohmann::ordered_json figures(const Bake& bake) {
 
 int bake_scene(const Options& options, const Console& console) {
   Bake bake;
-  Result<void> outcome;
-  {
-    ConsoleProgress progress(console);
-    outcome = run(options, progress, bake);
-  }
+  const auto outcome = with_progress(console, [&](Progress& progress) { return run(options, progress, bake); });
   if (!console.json) console.warn(bake.report);
   if (!outcome) return console.fail(in_file(outcome.error(), options.scene.path));
   nlohmann::ordered_json result = figures(bake);

@@ -8,6 +8,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include "lightwell/cli/figures_text.h"
+
 namespace lightwell {
 namespace {
 
@@ -19,7 +21,7 @@ void note_interrupt(int signal) {
 }
 
 // "8.00 M", "25.3 k", "512"
-std::string short_number(double value) {
+std::string scaled_number(double value) {
   char text[32];
   if (value >= 1e6)
     std::snprintf(text, sizeof text, "%.2f M", value / 1e6);
@@ -28,20 +30,6 @@ std::string short_number(double value) {
   else
     std::snprintf(text, sizeof text, "%.0f", value);
   return text;
-}
-
-// The name of an entry of the object that is called `key`; the outermost one has no name.
-std::string entry_name(const std::string& key, const std::string& name) {
-  return key.empty() ? name : key + "." + name;
-}
-
-void print_lines(const nlohmann::ordered_json& value, const std::string& key) {
-  if (value.is_object()) {
-    for (const auto& [name, item] : value.items()) print_lines(item, entry_name(key, name));
-    return;
-  }
-  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  std::printf("%s: %s\n", key.c_str(), text.c_str());
 }
 
 }  // namespace
@@ -65,11 +53,8 @@ void Console::warn(const Report& report) const {
 
 void Console::print(const nlohmann::ordered_json& figures) const {
   constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;  // names of a file may not be UTF-8
-  if (json) {
-    std::printf("%s\n", figures.dump(-1, ' ', false, replace).c_str());
-  } else {
-    print_lines(figures, "");
-  }
+  const std::string text = json ? figures.dump(-1, ' ', false, replace) + "\n" : figures_text(figures);
+  std::fputs(text.c_str(), stdout);
 }
 
 ConsoleProgress::ConsoleProgress(const Console& console)
@@ -79,7 +64,7 @@ ConsoleProgress::ConsoleProgress(const Console& console)
 }
 
 ConsoleProgress::~ConsoleProgress() {
-  end_stage();
+  erase();
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
 }
@@ -87,7 +72,7 @@ ConsoleProgress::~ConsoleProgress() {
 bool ConsoleProgress::cancelled() const { return interrupted != 0; }
 
 void ConsoleProgress::stage(std::string_view name, double total, std::string_view unit) {
-  end_stage();
+  finish();
   const std::lock_guard lock(mutex_);
   name_ = name;
   unit_ = unit;
@@ -115,23 +100,27 @@ void ConsoleProgress::draw(double done, double seconds) {
     line += " [" + std::string(filled, '#') + std::string(width - filled, '.') + "] ";
     line += std::to_string(static_cast<int>(share * 100)) + " %";
     if (seconds > 0.5 && done > 0) {
-      line += ", " + short_number(done / seconds) + " " + unit_ + "/s";
-      line += ", " + short_number(seconds / done * (total_ - done)) + " s left";
+      line += ", " + scaled_number(done / seconds) + " " + unit_ + "/s";
+      line += ", " + scaled_number(seconds / done * (total_ - done)) + " s left";
     }
   }
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }
 
-void ConsoleProgress::end_stage() {
+void ConsoleProgress::erase() const {
+  if (enabled_ && terminal_ && !name_.empty()) std::fputs("\r\033[K", stderr);
+}
+
+void ConsoleProgress::finish() {
   const std::lock_guard lock(mutex_);
   if (name_.empty() || !enabled_) return;
-  if (terminal_) std::fputs("\r\033[K", stderr);
+  erase();
   if (cancelled()) return name_.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::fprintf(stderr, "%s: %.1f s", name_.c_str(), seconds);
   if (total_ > 0 && seconds > 0)
-    std::fprintf(stderr, ", %s %s/s", short_number(total_ / seconds).c_str(), unit_.c_str());
+    std::fprintf(stderr, ", %s %s/s", scaled_number(total_ / seconds).c_str(), unit_.c_str());
   std::fputc('\n', stderr);
   name_.clear();
 }

@@ -22,7 +22,7 @@ struct Console {
   int fail(const Error& error) const;
   void warn(const std::string& warning) const;
   void warn(const Report& report) const;
-  /// Prints the figures of a command: as JSON, or as lines "key: value" with nested keys joined by dots.
+  /// Prints the figures of a command: as JSON, or as figures_text() has them.
   void print(const nlohmann::ordered_json& figures) const;
 };
 
@@ -36,10 +36,12 @@ class ConsoleProgress : public Progress {
   void stage(std::string_view name, double total, std::string_view unit) override;
   void advance(double done) override;
   bool cancelled() const override;
+  /// Ends the last stage; one that failed is never ended, and the error is all that is said of it.
+  void finish();
 
  private:
   void draw(double done, double seconds);
-  void end_stage();
+  void erase() const;
 
   std::mutex mutex_;
   bool enabled_;
@@ -51,6 +53,15 @@ class ConsoleProgress : public Progress {
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point drawn_;
 };
+
+/// Does `work`, a function of a Progress with a Result, and tells of its progress.
+template <typename Work>
+auto with_progress(const Console& console, const Work& work) {
+  ConsoleProgress progress(console);
+  auto outcome = work(progress);
+  if (outcome) progress.finish();
+  return outcome;
+}
 
 /// Seconds since it was made or last read by lap().
 class Stopwatch {

@@ -29,7 +29,7 @@ Result<Comparison> run(const Options& options) {
 
 CLI::App* add_diff(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = program.add_subcommand("diff", "Compares two pictures (PNG, EXR or PFM)");
+  CLI::App* command = program.add_subcommand("diff", "Compares two pictures (PNG, JPEG, WebP, EXR or PFM)");
   command->add_option("picture", options->picture, "A picture")->required()->type_name("");
   command->add_option("reference", options->reference, "What it should be")->required()->type_name("");
   add_choice<std::string>(

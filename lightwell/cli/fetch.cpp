@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/transport/fetch.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/received_scene.h"
@@ -17,6 +20,22 @@ struct Options {
   double timeout = 30;  ///< seconds; 0 is never
 };
 
+// "localhost:8080/packs/room.lw.glb" is what a browser takes for a URL.
+bool names_a_port(const std::string& text) {
+  const std::string authority = text.substr(0, text.find('/'));
+  const size_t colon = authority.rfind(':');
+  return colon != std::string::npos && colon > 0 && colon + 1 < authority.size() &&
+         std::all_of(authority.begin() + static_cast<ptrdiff_t>(colon) + 1, authority.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
+
+Result<std::vector<uint8_t>> read_pack(const std::string& path) {
+  std::error_code unknown;
+  if (names_a_port(path) && !std::filesystem::exists(path, unknown))
+    return fail({path, "", "no such file; a URL begins with http://"});
+  return read_file(path);
+}
+
 Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
   std::unique_ptr<Transport> transport;
   if (options.url.starts_with("https://"))
@@ -25,7 +44,7 @@ Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
     LW_TRY(http, http_transport(options.url));
     transport = std::move(http);
   } else {
-    LW_TRY(bytes, read_file(options.url));
+    LW_TRY(bytes, read_pack(options.url));
     transport = memory_transport(std::move(bytes));
   }
   const LineShape shape{static_cast<double>(options.bits_per_second), options.latency_milliseconds / 1000};

@@ -1,43 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/cli/info_text.h"
 
-#include <cmath>
 #include <map>
+
+#include "lightwell/cli/number_text.h"
 
 namespace lightwell {
 namespace {
 
 using Figures = nlohmann::ordered_json;
-
-// Four digits; what rounding left of a zero is a zero.
-std::string short_number(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", std::abs(number) < 1e-6 ? 0 : number);
-  return text;
-}
-
-// "20,010"
-std::string grouped(const Figures& count) {
-  const std::string digits = std::to_string(count.get<uint64_t>());
-  std::string text;
-  for (size_t i = 0; i < digits.size(); i++) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
-// "9 blocks", "1 block"
-std::string counted(const Figures& count, const std::string& noun) {
-  return grouped(count) + " " + noun + (count.get<uint64_t>() == 1 ? "" : "s");
-}
-
-// "51.66 kB"
-std::string size_text(const Figures& bytes) {
-  const auto number = bytes.get<double>();
-  if (number >= 1e6) return short_number(number / 1e6) + " MB";
-  return number >= 1e3 ? short_number(number / 1e3) + " kB" : counted(bytes, "byte");
-}
 
 // "1 x 1 x 1"
 std::string joined(const Figures& list, const std::string& between) {
@@ -48,7 +19,7 @@ std::string joined(const Figures& list, const std::string& between) {
 }
 
 std::string mesh_text(const Figures& mesh) {
-  return counted(mesh["faces"], "face") + ", " + grouped(mesh["vertices"]) + " vertices, " +
+  return counted(mesh["faces"].get<uint64_t>(), "face") + ", " + grouped(mesh["vertices"]) + " vertices, " +
          short_number(mesh["bits_per_vertex"]) + " bits a vertex";
 }
 

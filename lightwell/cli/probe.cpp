@@ -46,10 +46,7 @@ int probe_scene(const Options& options, const Console& console) {
   auto points = read_probe_points(options.points);
   if (!points) return console.fail(points.error());
   Report report;
-  auto values = [&] {
-    ConsoleProgress progress(console);
-    return run(options, *points, progress, report);
-  }();
+  auto values = with_progress(console, [&](Progress& progress) { return run(options, *points, progress, report); });
   console.warn(report);
   if (!values) return console.fail(in_file(values.error(), options.scene.path));
   if (console.json)

@@ -79,10 +79,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
 
 int render_scene(const Options& options, const Console& console) {
   Report report;
-  auto figures = [&] {
-    ConsoleProgress progress(console);
-    return run(options, progress, report);
-  }();
+  auto figures = with_progress(console, [&](Progress& progress) { return run(options, progress, report); });
   console.warn(report);
   if (!figures) return console.fail(in_file(figures.error(), options.scene.path));
   if (options.output != "-")

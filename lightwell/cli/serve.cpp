@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdlib>
 
@@ -15,6 +17,15 @@ void stop_server(int) {
   if (running != nullptr) running->stop();
 }
 
+// A sentence for who looks at a terminal, a line of JSON for a program.
+void announce(const std::string& url, const Console& console) {
+  if (!console.json && isatty(STDOUT_FILENO) != 0)
+    std::printf("Lightwell is at %s until you press Ctrl-C.\n", url.c_str());
+  else
+    std::printf("%s\n", nlohmann::json{{"url", url}}.dump().c_str());
+  std::fflush(stdout);
+}
+
 int serve(const ServerOptions& options, bool open, const Console& console) {
   auto server = Server::listen(options);
   if (!server) return console.fail(server.error());
@@ -23,10 +34,11 @@ int serve(const ServerOptions& options, bool open, const Console& console) {
   std::signal(SIGTERM, stop_server);
   const std::string host = options.bind.find(':') == std::string::npos ? options.bind : "[" + options.bind + "]";
   const std::string url = "http://" + host + ":" + std::to_string(server->port()) + "/";
-  std::printf("%s\n", nlohmann::json{{"url", url}}.dump().c_str());
-  std::fflush(stdout);
-  if (open && std::system(("xdg-open '" + url + "' >/dev/null 2>&1 &").c_str()) != 0 && !console.quiet)
-    std::fprintf(stderr, "lightwell: warning: no browser could be opened\n");
+  for (const std::filesystem::path& folder : server->catalog().empty_folders())
+    console.warn(folder.string() + ": there is no pack in it yet");
+  announce(url, console);
+  if (open && std::system(("xdg-open '" + url + "' >/dev/null 2>&1 &").c_str()) != 0)
+    console.warn("no browser could be opened");
   server->run();
   running = nullptr;
   return 0;
@@ -45,7 +57,7 @@ CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& c
   command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")
       ->required()
       ->type_name("");
-  command->add_option("--bind", options->server.bind, "Address to listen on")
+  command->add_option("--bind", options->server.bind, "IP address to listen on, or localhost")
       ->capture_default_str()
       ->type_name("ADDRESS");
   add_whole(*command, "--port", options->server.port, {0, 65535}, "Port; 0 for any free one");

@@ -170,8 +170,8 @@ Document furnace(uint64_t) {
 
 const std::vector<BuiltinScene>& builtin_scenes() {
   static const std::vector<BuiltinScene> scenes = {
-      {"box", "a Cornell room with a carved knot of 1.1 million triangles", box},
-      {"box-small", "the same with 20 thousand triangles", box_small},
+      {"box", "a Cornell room with a finely carved knot", box},
+      {"box-small", "the same room, the knot less finely carved", box_small},
       {"two-rooms", "a lit and a dark room with a door between", two_rooms},
       {"furnace", "a closed box whose walls all glow: every radiance is 2", furnace},
   };

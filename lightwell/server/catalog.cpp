@@ -71,6 +71,16 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, none);
 }
 
+std::vector<fs::path> packs_in(const fs::path& folder) {
+  std::vector<fs::path> packs;
+  std::error_code gone;
+  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end; entry.increment(gone)) {
+    const fs::path& file = entry->path();
+    if (is_pack_name(file.filename().string()) && is_file(file) && is_pack_file(file.string())) packs.push_back(file);
+  }
+  return packs;
+}
+
 /// A file below a folder, named by a path of plain names. What links lead to must be below the folder, too.
 std::optional<fs::path> file_below(const fs::path& folder, std::string_view relative) {
   fs::path path = folder;
@@ -117,14 +127,8 @@ Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path
 std::vector<Catalog::Pack> Catalog::packs() const {
   std::map<std::string, fs::path> found;
   for (const fs::path& file : files_) found.emplace(file.filename().string(), file);
-  for (const fs::path& folder : folders_) {
-    std::error_code gone;
-    for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end; entry.increment(gone)) {
-      const std::string name = entry->path().filename().string();
-      if (is_pack_name(name) && is_file(entry->path()) && is_pack_file(entry->path().string()))
-        found.emplace(name, entry->path());
-    }
-  }
+  for (const fs::path& folder : folders_)
+    for (const fs::path& file : packs_in(folder)) found.emplace(file.filename().string(), file);
   std::vector<Pack> packs;
   for (const auto& [name, file] : found) {
     std::error_code gone;
@@ -132,6 +136,13 @@ std::vector<Catalog::Pack> Catalog::packs() const {
     if (!gone) packs.push_back({name, file, bytes});
   }
   return packs;
+}
+
+std::vector<fs::path> Catalog::empty_folders() const {
+  std::vector<fs::path> empty;
+  for (const fs::path& folder : folders_)
+    if (packs_in(folder).empty()) empty.push_back(folder);
+  return empty;
 }
 
 std::string Catalog::packs_json() const {

@@ -26,6 +26,8 @@ class Catalog {
   };
   /// All packs, by name. Of a folder, other *.glb are left out.
   std::vector<Pack> packs() const;
+  /// Those of the folders that hold no pack so far.
+  std::vector<std::filesystem::path> empty_folders() const;
   /// The list as JSON: {"packs": [{"name": ..., "url": "/packs/...", "bytes": ...}, ...]}.
   std::string packs_json() const;
 

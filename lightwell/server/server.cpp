@@ -197,8 +197,8 @@ class Server::Loop {
 
   Result<void> listen() {
     error_code error;
-    const auto address = asio::ip::make_address(options_.bind, error);
-    if (error) return fail(options_.bind, "is not an address");
+    const auto address = asio::ip::make_address(options_.bind == "localhost" ? "127.0.0.1" : options_.bind, error);
+    if (error) return fail(options_.bind, "is neither an IP address nor localhost");
     const tcp::endpoint endpoint(address, options_.port);
     acceptor_.open(endpoint.protocol(), error);
     if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
@@ -213,6 +213,7 @@ class Server::Loop {
   }
 
   uint16_t port() const { return port_; }
+  const Catalog& catalog() const { return catalog_; }
 
   void run() {
     stop_event_.async_wait(asio::posix::stream_descriptor::wait_read, [this](error_code) { begin_stop(); });
@@ -286,6 +287,7 @@ Server& Server::operator=(Server&&) noexcept = default;
 Server::~Server() = default;
 
 uint16_t Server::port() const { return loop_->port(); }
+const Catalog& Server::catalog() const { return loop_->catalog(); }
 void Server::run() { loop_->run(); }
 void Server::stop() { loop_->stop(); }
 

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "lightwell/base/result.h"
+#include "lightwell/server/catalog.h"
 
 namespace lightwell {
 
 struct ServerOptions {
-  std::string bind = "127.0.0.1";
+  std::string bind = "127.0.0.1";            ///< an IP address, or localhost, which is this one
   uint16_t port = 8080;                      ///< 0: any free one
   std::vector<std::filesystem::path> packs;  ///< files, or folders of *.glb
   std::filesystem::path page;                ///< the folder with the page's index.html; empty: no page
@@ -41,6 +42,8 @@ class Server {
 
   /// The port that is listened on.
   uint16_t port() const;
+  /// What it serves.
+  const Catalog& catalog() const;
   /// Serves until stop() is called.
   void run();
   /// Ends run(): no new connection, idle ones are closed, responses under way are finished. May be called from any

@@ -41,6 +41,8 @@ TEST_F(Commands, ScenesAreListedAndWritten) {
   const json listed = json::parse(run("scenes --json").out);
   ASSERT_EQ(listed["scenes"].size(), 4u);
   EXPECT_EQ(keys_of(listed["scenes"][0]), (std::vector<std::string>{"lights", "name", "triangles"}));
+  EXPECT_NE(run("scenes").out.find("box-small     20030 triangles  the same room, the knot less finely carved\n"),
+            std::string::npos);
   EXPECT_EQ(run("scenes furnace -o " + path("furnace.glb")).status, 0);
   EXPECT_EQ(read(path("furnace.glb")).substr(0, 4), "glTF");
 }

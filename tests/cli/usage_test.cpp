@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the program says to those who mistype, and to files and servers that are not what they should be.
+#include <regex>
+
 #include "tests/cli/commands.h"
 
 namespace lightwell {
@@ -37,7 +39,8 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"bake box-small --threads 5000" + out, "--threads: 5000: is not a whole number from 0 to 1024"},
            {"bake box-small --seed 1.5" + out, "--seed: 1.5: is not a whole number"},
            {"bake box-small --environment 1,2" + out, "--environment: 1,2: is neither R,G,B"},
-           {"bake box-small --environment red" + out, "nor the name of a file"},
+           {"bake box-small --environment red" + out, "--environment: red: no such file, and it is not R,G,B"},
+           {"bake box-small --environment nofile.hdr" + out, "--environment: nofile.hdr: no such file"},
            {"bake box-small --environment 1,2,inf" + out, "is neither R,G,B"},
            {"bake box-small -o " + path("x.xyz"), "x.xyz: the name does not end in .glb"},
            {"scenes box", "go together"},
@@ -176,6 +179,48 @@ TEST_F(Commands, InfoIsReadable) {
   for (const char* part : {"mesh 0: 20,010 faces", "bits a vertex", "grid 0: 5 x 5 x 6 nodes, cells of 1 x 1 x 1 m",
                            "lamp 0: rectangle", "radiance 14 12 9 W/m2/sr", "stream 0: light", " kB"})
     EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST_F(Commands, FiguresAreReadable) {
+  const Outcome baked = run("bake box-small --photons 20k --grid 6 -o " + path("x.glb"));
+  const std::string size = R"(\d{1,3}(\.\d+)? [kM]B)";
+  for (const std::string& line : std::vector<std::string>{
+           "triangles: 20,030", "photons: 20,000", "rays a second: [0-9,]+",
+           R"(time: import \d+\.\d\d s, light \d+\.\d\d s, geometry \d+\.\d\d s, write \d+\.\d\d s)",
+           "peak memory: " + size, "size of the pack: " + size,
+           "size: opening " + size + ", geometry " + size + ", light " + size + ", texture 0 bytes",
+           R"(estimated error: \d+(\.\d+)? %)"})
+    EXPECT_TRUE(std::regex_search(baked.out, std::regex("(^|\n)" + line + "\n"))) << line << "\n" << baked.out;
+  EXPECT_EQ(run("verify " + path("x.glb")).out.rfind("ok: yes\nblocks: ", 0), 0u);
+  const std::string fetched = run("fetch " + path("x.glb")).out;
+  EXPECT_TRUE(std::regex_search(fetched, std::regex("first picture: size " + size + R"(, time \d+\.\d\d s)")))
+      << fetched;
+  EXPECT_EQ(run("export " + path("x.glb") + " -o " + path("x.ply")).out.rfind("vertices: 10,0", 0), 0u);
+}
+
+TEST_F(Commands, OfAStageThatFailsOnlyTheErrorIsTold) {
+  write("dark.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const std::string& command :
+       {"bake " + path("missing.glb") + " -o " + path("x.glb"), "bake " + path("dark.obj") + " -o " + path("x.glb")})
+    EXPECT_EQ(run(command).lines(), 1u) << run(command).err;
+}
+
+TEST_F(Commands, DiffSaysWhichPicturesItReads) {
+  write("notes.md", "# Notes");
+  const Outcome outcome = run("diff " + path("notes.md") + " " + path("notes.md"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.err,
+            "lightwell: " + path("notes.md") + ": is no picture: neither PNG, JPEG, WebP, OpenEXR nor PFM\n");
+}
+
+TEST_F(Commands, FetchSaysHowAUrlBegins) {
+  for (const std::string url : {"localhost:8123/packs/x.glb", "127.0.0.1:80", "[::1]:8080/x.glb"})
+    EXPECT_EQ(run("fetch " + url).err, "lightwell: " + url + ": no such file; a URL begins with http://\n");
+  for (const std::string file : {"x.glb", "folder:/x.glb", "folder/x:1", "12:30 o'clock"}) {
+    const Outcome outcome = run("fetch \"" + file + "\"");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err.find("http"), std::string::npos) << outcome.err;
+  }
 }
 
 TEST_F(Commands, FetchNamesAServerThatIsNotThereAndGivesUp) {

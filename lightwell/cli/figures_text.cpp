@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/cli/figures_text.h"
+
+#include <map>
+
+#include "lightwell/cli/number_text.h"
+
+namespace lightwell {
+namespace {
+
+using Figures = nlohmann::ordered_json;
+
+enum class Unit { none, seconds, bytes, share };
+
+// What a key of the JSON is called in a text, and what it is measured in; an unknown one has its name, and the unit of
+// the object that it belongs to.
+struct Meaning {
+  std::string name;
+  Unit unit = Unit::none;
+};
+
+Meaning meaning_of(const std::string& key, Unit outer) {
+  static const std::map<std::string, Meaning> known = {{"seconds", {"time", Unit::seconds}},
+                                                       {"bytes", {"size", Unit::bytes}},
+                                                       {"pack_bytes", {"size of the pack", Unit::bytes}},
+                                                       {"peak_memory", {"peak memory", Unit::bytes}},
+                                                       {"rays_per_second", {"rays a second"}},
+                                                       {"first_picture", {"first picture"}},
+                                                       {"estimated_error", {"estimated error", Unit::share}},
+                                                       {"spp", {"samples a pixel"}}};
+  const auto found = known.find(key);
+  return found == known.end() ? Meaning{key, outer} : found->second;
+}
+
+std::string number_text(const Figures& number, Unit unit) {
+  switch (unit) {
+    case Unit::seconds: {
+      char text[64];
+      std::snprintf(text, sizeof text, "%.2f s", number.get<double>());
+      return text;
+    }
+    case Unit::bytes: return size_text(number.get<uint64_t>());
+    case Unit::share: return short_number(100 * number.get<double>()) + " %";
+    case Unit::none: break;
+  }
+  return number.is_number_float() ? short_number(number.get<double>()) : grouped(number.get<uint64_t>());
+}
+
+std::string value_text(const Figures& value, Unit unit) {
+  if (value.is_number()) return number_text(value, unit);
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_string()) return value.get<std::string>();
+  std::string text;
+  for (const auto& [key, item] : value.items()) {
+    const Meaning meaning = meaning_of(key, unit);
+    text += (text.empty() ? "" : ", ") + meaning.name + " " + value_text(item, meaning.unit);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string figures_text(const Figures& figures) {
+  std::string text;
+  for (const auto& [key, value] : figures.items()) {
+    const Meaning meaning = meaning_of(key, Unit::none);
+    text += meaning.name + ": " + value_text(value, meaning.unit) + "\n";
+  }
+  return text;
+}
+
+}  // namespace lightwell

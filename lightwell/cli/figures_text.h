@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace lightwell {
+
+/// The figures of a command for people: a line each, "peak memory: 17.2 MB", the members of an object side by side on
+/// its line. What is measured in seconds or bytes is told by its key.
+std::string figures_text(const nlohmann::ordered_json& figures);
+
+}  // namespace lightwell
