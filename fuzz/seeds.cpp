@@ -4,6 +4,7 @@
 // the rooms of tests/data.
 #include <webp/encode.h>
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 
@@ -97,6 +98,18 @@ void plant_scenes(Seeds& seeds) {
   seeds.plant("scene", as_bytes(obj_text));
 }
 
+/// Scripts of import_fuzz.cpp: one that changes nothing, and such as nobody has thought of.
+void plant_edits(Seeds& seeds) {
+  constexpr uint8_t shorten = 7;  // the document itself, which is no array
+  seeds.plant("import", std::array<uint8_t, 5>{0, 0, 0, 0, shorten});
+  Random random(2, 0);
+  for (int i = 1; i <= 8; i++) {
+    ByteWriter script;
+    for (int byte = 0; byte < 10 * i; byte++) script.u8(static_cast<uint8_t>(random.below(256)));
+    seeds.plant("import", script.bytes());
+  }
+}
+
 std::vector<uint8_t> webp(const Image& image) {
   uint8_t* bytes = nullptr;
   const size_t length = WebPEncodeRGBA(image.pixels.data(), image.width, image.height, 4 * image.width, 50, &bytes);
@@ -128,6 +141,7 @@ int main(int argc, char** argv) {
   plant_streams(seeds);
   plant_packs(seeds);
   plant_scenes(seeds);
+  plant_edits(seeds);
   plant_images(seeds);
   return 0;
 }

@@ -40,7 +40,7 @@ sanitizers() {
 # piece of memory may be as large as the largest image that is read.
 fuzz_target() { # NAME SECONDS
   local name=$1 log=build/fuzz/$1.log corpus=build/fuzz/corpus/$1 largest_piece=256
-  case $name in gltf | texture) largest_piece=1100 ;; esac
+  case $name in gltf | import | texture) largest_piece=1100 ;; esac
   mkdir -p "$corpus"
   build/sanitize/bin/"${name}_fuzz" -max_total_time="$2" -timeout=20 -rss_limit_mb=2048 -malloc_limit_mb=$largest_piece \
     -max_len=65536 -verbosity=0 -print_final_stats=1 -artifact_prefix="build/fuzz/$name-" "$corpus" build/fuzz/seeds/"$name" \
