@@ -39,7 +39,7 @@ class Commands : public testing::Test {
   }
   /// Sends a signal ("INT", "TERM") once the program has said `word` on stderr.
   Outcome interrupt(const std::string& arguments, const std::string& word, const std::string& signal) const {
-    return run_in_shell(LIGHTWELL_PROGRAM " " + arguments + redirected() + " & until grep -q '" + word + "' " +
+    return run_in_shell(LIGHTWELL_PROGRAM " " + arguments + redirected() + " & until grep -qs '" + word + "' " +
                         path("stderr") + "; do kill -0 $! 2>/dev/null || break; sleep 0.02; done; kill -" + signal +
                         " $!; wait $!");
   }
@@ -47,6 +47,8 @@ class Commands : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   std::string redirected() const { return " >" + path("stdout") + " 2>" + path("stderr"); }
   Outcome run_in_shell(const std::string& command) const {
+    fs::remove(path("stdout"));  // who waits for a word must not find that of the run before
+    fs::remove(path("stderr"));
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(path("stdout")), read(path("stderr"))};
   }

@@ -12,12 +12,12 @@ class Serve : public Commands {
  protected:
   /// Serves until the address is told.
   Outcome started(const std::string& arguments) const {
-    return run_in_shell(serve(arguments) + redirected() + " & until grep -q http " + path("stdout") +
+    return run_in_shell(serve(arguments) + redirected() + " & until grep -qs http " + path("stdout") +
                         "; do kill -0 $! 2>/dev/null || break; sleep 0.02; done; kill $! 2>/dev/null; wait $!");
   }
   /// The same on a terminal, where Ctrl-C is pressed after ten seconds at the latest.
   Outcome started_on_a_terminal(const std::string& arguments) const {
-    return run_in_shell("touch " + path("stdout") + "; (for i in $(seq 500); do grep -q http " + path("stdout") +
+    return run_in_shell("(for i in $(seq 500); do grep -qs http " + path("stdout") +
                         " && break; sleep 0.02; done; printf '\\003') | script -qefc '" + serve(arguments) +
                         "' /dev/null" + redirected());
   }
