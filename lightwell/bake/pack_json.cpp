@@ -8,10 +8,13 @@
 namespace lightwell {
 namespace {
 
+Json to_json(int32_t x) { return x; }
+Json to_json(float x) { return shortest(x); }
+
 template <typename T, int N>
 Json to_json(const Vec<T, N>& v) {
   Json array = Json::array();
-  for (const T x : v.e) array.push_back(x);
+  for (const T x : v.e) array.push_back(to_json(x));
   return array;
 }
 
@@ -42,15 +45,15 @@ Json lamp_json(const ClientLamp& lamp) {
     json["v"] = to_json(lamp.half_v);
     if (lamp.two_sided) json["twoSided"] = true;
   }
-  if (lamp.kind == Kind::sphere) json["radius"] = lamp.radius;
+  if (lamp.kind == Kind::sphere) json["radius"] = to_json(lamp.radius);
   if (lamp.kind == Kind::rectangle || lamp.kind == Kind::sphere)
     json["radiance"] = to_json(lamp.radiance);
   else
     json["intensity"] = to_json(lamp.intensity);
-  if (lamp.range > 0) json["range"] = lamp.range;
+  if (lamp.range > 0) json["range"] = to_json(lamp.range);
   if (lamp.kind == Kind::spot) {
-    json["innerConeAngle"] = lamp.inner_cone;
-    json["outerConeAngle"] = lamp.outer_cone;
+    json["innerConeAngle"] = to_json(lamp.inner_cone);
+    json["outerConeAngle"] = to_json(lamp.outer_cone);
   }
   if (lamp.node >= 0) json["node"] = lamp.node;
   if (lamp.primitive >= 0) json["primitive"] = lamp.primitive;
@@ -67,8 +70,8 @@ Json grid_json(const PackLight& light) {
           {"cell", to_json(shape.cell)},
           {"nodes", to_json(shape.nodes)},
           {"codec", light_codec_slices},
-          {"normalOffset", light.grid->normal_offset},
-          {"estimatedError", light.estimated_error},
+          {"normalOffset", to_json(light.grid->normal_offset)},
+          {"estimatedError", to_json(light.estimated_error)},
           {"priority", 0},
           {"contains", std::move(contains)}};
 }
@@ -80,7 +83,7 @@ Json mesh_json(const StreamedMesh& mesh, const Mesh& original, size_t stream) {
           {"vertices", layout.vertices},
           {"faces", layout.faces},
           {"bounds", {{"min", to_json(bounds.lo)}, {"max", to_json(bounds.hi)}}},
-          {"error", layout.base_error}};
+          {"error", to_json(layout.base_error)}};
 }
 
 }  // namespace
@@ -112,19 +115,11 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   use_extension(json, "LIGHTWELL_lamps");
 }
 
-void add_stream_table(Json& json, const PackPlan& plan, float exposure) {
-  Json streams = Json::array();
-  for (const StreamEntry& entry : plan.streams)
-    streams.push_back({{"kind", to_text(entry.kind)},
-                       {"codec", entry.codec},
-                       {"offset", entry.first},
-                       {"blocks", entry.blocks},
-                       {"bytes", entry.length}});
+void add_pack_identity(Json& json, const PackId& id, float exposure) {
   json["extensions"]["LIGHTWELL_streams"] = {{"version", format_version},
-                                             {"id", to_text(plan.id)},
+                                             {"id", to_text(id)},
                                              {"generator", "lightwell " LIGHTWELL_VERSION},
-                                             {"exposure", exposure},
-                                             {"streams", std::move(streams)}};
+                                             {"exposure", to_json(exposure)}};
   use_extension(json, "LIGHTWELL_streams");
 }
 

@@ -20,7 +20,7 @@ struct PackContent {
 /// LIGHTWELL_progressive_texture, LIGHTWELL_light_grids and LIGHTWELL_lamps (docs/format.md).
 void add_extensions(Document& document, const Scene& scene, const PackLight& light, const PackContent& content);
 
-/// Adds LIGHTWELL_streams: version, id, and the streams as the directory has them.
-void add_stream_table(Json& json, const PackPlan& plan, float exposure);
+/// Adds LIGHTWELL_streams: the format's version, the pack's id, what baked it and the exposure (EV).
+void add_pack_identity(Json& json, const PackId& id, float exposure);
 
 }  // namespace lightwell

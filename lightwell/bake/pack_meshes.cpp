@@ -35,40 +35,70 @@ class Cancellation : public Progress {
   const Progress& user_;
 };
 
-}  // namespace
+// A coarser level shows nothing of a shape.
+constexpr uint32_t fewest_vertices = 8;
 
-Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress) {
+// The primitives that a stream can refine.
+std::vector<int> refined_primitives(const Scene& scene) {
   std::vector<int> refined;
-  std::vector<const Mesh*> meshes;
-  for (size_t i = 0; i < scene.primitives.size(); i++) {
-    if (scene.primitives[i].deforming || scene.primitives[i].mesh.faces.empty()) continue;
-    refined.push_back(static_cast<int>(i));
-    meshes.push_back(&scene.primitives[i].mesh);
-  }
-  const std::vector<uint32_t> base_vertices = share_opening(meshes, options.opening_mesh_bytes);
-  const std::vector<float> scales = largest_scales(scene);
+  for (size_t i = 0; i < scene.primitives.size(); i++)
+    if (!scene.primitives[i].deforming && !scene.primitives[i].mesh.faces.empty())
+      refined.push_back(static_cast<int>(i));
+  return refined;
+}
 
-  std::vector<std::optional<EncodedMesh>> encoded(meshes.size());
+Result<std::vector<SimplifiedMesh>> simplify_all(const Scene& scene, const std::vector<int>& refined,
+                                                 const std::vector<float>& scales, const PackOptions& options,
+                                                 Progress& progress) {
+  std::vector<std::optional<SimplifiedMesh>> simplified(refined.size());
   std::mutex mutex;
   Result<void> outcome;
   size_t total = 0, done = 0;
-  for (size_t i = 0; i < meshes.size(); i++)
-    if (base_vertices[i] > 0) total += meshes[i]->positions.size();
+  for (const int primitive : refined) total += scene.primitives[static_cast<size_t>(primitive)].mesh.positions.size();
   progress.stage("ordering meshes", static_cast<double>(total), "vertices");
   Cancellation cancellation(progress);
-  parallel_for(meshes.size(), 1, options.threads, [&](size_t begin, size_t, int) {
-    if (base_vertices[begin] == 0) return;
-    SimplifyOptions simplify;
-    simplify.base_vertices = base_vertices[begin];
-    const float scale = scales[static_cast<size_t>(refined[begin])];
-    if (options.position_error > 0 && scale > 0) simplify.quantize.position_error = options.position_error / scale;
-    auto mesh = build_progressive(*meshes[begin], simplify, cancellation);
-    if (mesh) encoded[begin] = encode(*mesh);
+  parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
+    const auto primitive = static_cast<size_t>(refined[i]);
+    const Mesh& mesh = scene.primitives[primitive].mesh;
+    SimplifyOptions simplify_options;
+    simplify_options.base_vertices = fewest_vertices;
+    if (options.position_error > 0 && scales[primitive] > 0)
+      simplify_options.quantize.position_error = options.position_error / scales[primitive];
+    auto result = simplify(mesh, simplify_options, cancellation);
     const std::lock_guard lock(mutex);
-    if (!mesh && outcome) outcome = fail(mesh.error());
-    progress.advance(static_cast<double>(done += meshes[begin]->positions.size()));
+    if (result)
+      simplified[i].emplace(std::move(*result));
+    else if (outcome)
+      outcome = fail(result.error());
+    progress.advance(static_cast<double>(done += mesh.positions.size()));
   });
   LW_CHECK(outcome);
+  std::vector<SimplifiedMesh> all;
+  for (std::optional<SimplifiedMesh>& mesh : simplified) all.push_back(std::move(*mesh));
+  return all;
+}
+
+}  // namespace
+
+Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress) {
+  const std::vector<int> refined = refined_primitives(scene);
+  const std::vector<float> scales = largest_scales(scene);
+  LW_TRY(simplified, simplify_all(scene, refined, scales, options, progress));
+
+  std::vector<std::vector<OpeningForm>> forms;
+  for (size_t i = 0; i < refined.size(); i++) {
+    const auto primitive = static_cast<size_t>(refined[i]);
+    forms.push_back(opening_forms(scene.primitives[primitive].mesh, simplified[i], scales[primitive]));
+  }
+  const std::vector<size_t> rounds =
+      share_opening(forms, OpeningBudget::of(refined.size(), length(scene.bounds().size())));
+
+  std::vector<std::optional<EncodedMesh>> encoded(refined.size());
+  parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
+    if (rounds[i] == 0) return;
+    const ProgressiveMesh mesh = refine_after(std::move(simplified[i]), rounds[i]);
+    encoded[i] = encode(mesh);
+  });
 
   std::vector<StreamedMesh> streamed;
   // A mesh of degenerate faces only has no coarsest level: it stays in the opening as it is.

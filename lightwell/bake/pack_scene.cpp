@@ -154,7 +154,7 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
   content.images = shrink_images(scene, document);
   add_extensions(document, scene, light, content);
-  drop_unused(document);
+  share_buffer_views(document);
   document = single_buffer(std::move(document), report);
 
   std::vector<PackStream> streams;
@@ -168,7 +168,7 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
 
   GlbParts parts = glb_parts(document);
   LW_TRY(writer, PackWriter::create(std::move(parts.bin), std::move(streams)));
-  add_stream_table(document.json, writer.plan(), light.exposure);
+  add_pack_identity(document.json, writer.plan().id, light.exposure);
   const std::string json = glb_parts(document).json;
   LW_CHECK(check_self_contained(json));
   auto file = writer.finish(json);

@@ -9,9 +9,8 @@
 namespace lightwell {
 
 struct PackOptions {
-  float position_error = 0;             ///< metres that a vertex may move; 0: 14 bits for the longest side of each mesh
-  uint64_t opening_mesh_bytes = 40960;  ///< for the coarsest levels of all meshes
-  int threads = 0;                      ///< 0: all processors
+  float position_error = 0;  ///< metres that a vertex may move; 0: 14 bits for the longest side of each mesh
+  int threads = 0;           ///< 0: all processors
 };
 
 /// The light of a scene as a pack states it.

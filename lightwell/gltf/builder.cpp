@@ -16,7 +16,7 @@ Bytes bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)};
 }
 
-Json array_of(const Vec3f& v) { return {v[0], v[1], v[2]}; }
+Json array_of(const Vec3f& v) { return {shortest(v[0]), shortest(v[1]), shortest(v[2])}; }
 
 }  // namespace
 

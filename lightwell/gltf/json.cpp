@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/gltf/json.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 namespace lightwell {
@@ -78,6 +80,14 @@ int64_t whole_number(const Json& value) {
   if (!value.is_number()) return -1;
   const double number = value.get<double>();
   return number >= 0 && number <= 0x1p53 && std::floor(number) == number ? static_cast<int64_t>(number) : -1;
+}
+
+double shortest(float value) {
+  std::array<char, 32> digits;
+  double rounded = value;
+  const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  std::from_chars(digits.data(), end, rounded);
+  return rounded;
 }
 
 int index_of(const Json& object, const char* key) {

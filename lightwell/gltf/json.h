@@ -33,6 +33,9 @@ int64_t whole_number(const Json& value);
 /// An index into another array; -1 when it is missing.
 int index_of(const Json& object, const char* key);
 
+/// The double of fewest decimal digits that rounds to a float: as text it is half as long as the float's own value.
+double shortest(float value);
+
 /// An array of N numbers.
 template <int N>
 Vec<double, N> numbers(const Json& object, const char* key, Vec<double, N> fallback) {

@@ -119,6 +119,17 @@ Points::Points(const std::vector<Vec3i>& positions) {
   first.push_back(static_cast<uint32_t>(positions.size()));
 }
 
+void CollapseOrder::keep_rounds(size_t count, const Points& points) {
+  for (size_t i = count; i < rounds.size(); i++)
+    for (const uint32_t point : rounds[i].removed) {
+      target[point] = point;
+      for (uint32_t v = points.first[point]; v < points.first[point + 1]; v++) parent[v] = v;
+    }
+  rounds.resize(std::min(count, rounds.size()));
+  for (uint32_t& corner : vanished)
+    if (corner != never && corner != loose && parent[corner] == corner) corner = never;
+}
+
 Result<CollapseOrder> collapse_order(const QuantizedMesh& mesh, const Points& points, uint32_t vertices,
                                      Progress& progress) {
   return Simplifier(mesh, points).run(vertices, progress);

@@ -35,6 +35,9 @@ struct CollapseOrder {
   std::vector<uint32_t> target;    ///< of each point: the one it collapsed onto; itself when it stays
   std::vector<uint32_t> parent;    ///< of each vertex: the one that took its place; itself when it stays
   std::vector<uint32_t> vanished;  ///< of each face: its corner whose collapse removed it; never; or loose
+
+  /// Undoes all rounds but the first `count`: what is left is the order that ends there.
+  void keep_rounds(size_t count, const Points& points);
 };
 
 /// Orders all points of a mesh until at most `vertices` vertices are left or hardly anything can collapse any more. No

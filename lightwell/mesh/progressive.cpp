@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "lightwell/mesh/collapse.h"
-
 namespace lightwell {
 namespace {
 
@@ -79,10 +77,40 @@ void order_faces(const QuantizedMesh& mesh, const CollapseOrder& order, const st
 
 }  // namespace
 
-Result<ProgressiveMesh> build_progressive(const Mesh& mesh, const SimplifyOptions& options, Progress& progress) {
+std::vector<SimplifiedMesh::Level> SimplifiedMesh::levels() const {
+  std::vector<uint32_t> round_of(points.count());
+  for (uint32_t i = 0; i < order.rounds.size(); i++)
+    for (const uint32_t point : order.rounds[i].removed) round_of[point] = i;
+
+  std::vector<Level> levels(order.rounds.size() + 1);
+  const auto loose = std::ranges::count(order.vanished, CollapseOrder::loose);
+  levels[0] = {static_cast<uint32_t>(mesh.positions.size()), static_cast<uint32_t>(mesh.faces.size() - loose), 0};
+  for (const uint32_t corner : order.vanished)
+    if (corner < CollapseOrder::loose) levels[round_of[points.of[corner]] + 1].faces++;
+  for (size_t i = 0; i < order.rounds.size(); i++) {
+    uint32_t removed = 0;
+    for (const uint32_t point : order.rounds[i].removed) removed += points.first[point + 1] - points.first[point];
+    levels[i + 1] = {levels[i].vertices - removed, levels[i].faces - levels[i + 1].faces, order.rounds[i].error};
+  }
+  return levels;
+}
+
+Result<SimplifiedMesh> simplify(const Mesh& mesh, const SimplifyOptions& options, Progress& progress) {
   LW_TRY(quantized, quantize(mesh, options.quantize));
-  const Points points(quantized.positions);
+  Points points(quantized.positions);
   LW_TRY(order, collapse_order(quantized, points, options.base_vertices, progress));
+  return SimplifiedMesh{std::move(quantized), std::move(points), std::move(order)};
+}
+
+Result<ProgressiveMesh> build_progressive(const Mesh& mesh, const SimplifyOptions& options, Progress& progress) {
+  LW_TRY(simplified, simplify(mesh, options, progress));
+  const size_t rounds = simplified.order.rounds.size();
+  return refine_after(std::move(simplified), rounds);
+}
+
+ProgressiveMesh refine_after(SimplifiedMesh simplified, size_t rounds) {
+  auto& [quantized, points, order] = simplified;
+  order.keep_rounds(rounds, points);
 
   ProgressiveMesh out;
   std::vector<uint32_t> old_of;  // of each vertex in the new order

@@ -6,6 +6,7 @@
 
 #include "lightwell/base/progress.h"
 #include "lightwell/base/result.h"
+#include "lightwell/mesh/collapse.h"
 #include "lightwell/mesh/quantize.h"
 
 namespace lightwell {
@@ -14,6 +15,22 @@ struct SimplifyOptions {
   QuantizeOptions quantize;
   /// Vertices that the coarsest level may have; it has fewer, by up to a third. What cannot be simplified so far stays.
   uint32_t base_vertices = 300;
+};
+
+/// A mesh with the order in which it collapses. Any of its levels can become the coarsest one of a progressive mesh.
+struct SimplifiedMesh {
+  /// What the first rounds leave of the mesh.
+  struct Level {
+    uint32_t vertices = 0, faces = 0;
+    float error = 0;  ///< distance from the final level, in the mesh's units; an estimate
+  };
+
+  QuantizedMesh mesh;
+  Points points;
+  CollapseOrder order;
+
+  /// Level i is what i rounds leave: the first is the whole mesh without loose faces.
+  std::vector<Level> levels() const;
 };
 
 /// A mesh whose vertices are in order of refinement: those of the coarsest level, then pass by pass the ones that
@@ -54,6 +71,12 @@ struct ProgressiveMesh {
 /// Quantises the mesh and orders it by half-edge collapse. The coarsest level has a face if any face of the mesh has
 /// three different corners. Errors: a position that is not finite; cancelled by the
 /// user. The mesh's indices must be in range.
+Result<SimplifiedMesh> simplify(const Mesh& mesh, const SimplifyOptions& options, Progress& progress);
+
+/// The progressive mesh whose coarsest level is what `rounds` rounds leave.
+ProgressiveMesh refine_after(SimplifiedMesh mesh, size_t rounds);
+
+/// Both in one: the coarsest level is the last one.
 Result<ProgressiveMesh> build_progressive(const Mesh& mesh, const SimplifyOptions& options, Progress& progress);
 
 }  // namespace lightwell

@@ -221,17 +221,6 @@ PackStream texture_stream(const std::vector<uint8_t>& image, const Image& size) 
   return stream;
 }
 
-std::string streams_json(const PackPlan& plan) {
-  std::vector<std::string> streams;
-  for (const StreamEntry& entry : plan.streams)
-    streams.push_back(std::string("{\"kind\":\"") + to_text(entry.kind) +
-                      "\",\"codec\":" + std::to_string(entry.codec) + ",\"offset\":" + std::to_string(entry.first) +
-                      ",\"blocks\":" + std::to_string(entry.blocks) + ",\"bytes\":" + std::to_string(entry.length) +
-                      "}");
-  return "{\"version\":0,\"id\":\"" + to_text(plan.id) + "\",\"exposure\":0,\"streams\":" + Opening::list(streams) +
-         "}";
-}
-
 }  // namespace
 
 SampleScene sample_scene(uint32_t triangles, int nodes) {
@@ -271,10 +260,10 @@ std::vector<uint8_t> sample_pack(const SampleScene& scene, uint32_t salt) {
               "{\"pbrMetallicRoughness\":{\"metallicFactor\":0}}],\"extensionsUsed\":[\"LIGHTWELL_streams\","
               "\"LIGHTWELL_progressive_mesh\"," +
               "\"LIGHTWELL_progressive_texture\",\"LIGHTWELL_light_grids\"],\"extensions\":{\"LIGHTWELL_streams\":" +
-              streams_json(writer.plan()) + ",\"LIGHTWELL_light_grids\":{\"grids\":[{\"stream\":0,\"min\":" +
-              triple(shape.lo) + ",\"cell\":" + triple(shape.cell) + ",\"nodes\":" + triple(counts) +
-              ",\"codec\":0,\"normalOffset\":" + std::to_string(scene.grid.normal_offset) +
-              ",\"contains\":[\"indirect\"]}]}}}")
+              "{\"version\":0,\"id\":\"" + to_text(writer.plan().id) +
+              "\",\"exposure\":0},\"LIGHTWELL_light_grids\":{\"grids\":[{\"stream\":0,\"min\":" + triple(shape.lo) +
+              ",\"cell\":" + triple(shape.cell) + ",\"nodes\":" + triple(counts) + ",\"codec\":0,\"normalOffset\":" +
+              std::to_string(scene.grid.normal_offset) + ",\"contains\":[\"indirect\"]}]}}}")
       .value();
 }
 

@@ -90,6 +90,57 @@ TEST(DropUnused, LeavesNothingOfNothing) {
   EXPECT_EQ(document.json, Document().json);
 }
 
+/// Small meshes in buffer views of their own, with and without each attribute.
+Document document_of_parts(int parts) {
+  Document document;
+  DocumentBuilder builder(document);
+  for (int i = 0; i < parts; i++) {
+    Mesh mesh = square();
+    for (Vec3f& p : mesh.positions) p[2] = static_cast<float>(i);
+    if (i % 2 == 0) mesh.normals.assign(4, Vec3f{{0, 0, 1}});
+    if (i % 3 == 0) mesh.texcoords[0].assign(4, Vec2f{{0.5f, static_cast<float>(i)}});
+    if (i % 5 == 0) mesh.colors.assign(4, Vec4f{{1, 0, 0, 1}});
+    builder.add("meshes", {{"primitives", Json::array({builder.primitive(mesh)})}});
+  }
+  return document;
+}
+
+TEST(ShareBufferViews, KeepsAllMeshes) {
+  const Document before = document_of_parts(30);
+  Document after = before;
+  const size_t bytes = before.buffers[0].size();
+  DocumentBuilder(after).primitive(square());  // of no mesh
+  share_buffer_views(after);
+  EXPECT_EQ(after.json["accessors"].size(), before.json["accessors"].size());
+  EXPECT_EQ(after.json["bufferViews"].size(), 4u);  // of 12, 8 and 4 bytes a vertex, and indices
+  Report report;
+  EXPECT_LE(single_buffer(after, report).buffers[0].size(), bytes);
+  for (int i = 0; i < 30; i++) {
+    const Mesh mesh = read_primitive(after, i, 0, report).value();
+    const Mesh wanted = read_primitive(before, i, 0, report).value();
+    EXPECT_EQ(mesh.positions, wanted.positions);
+    EXPECT_EQ(mesh.normals, wanted.normals);
+    EXPECT_EQ(mesh.texcoords, wanted.texcoords);
+    EXPECT_EQ(mesh.colors, wanted.colors);
+    EXPECT_EQ(mesh.faces, wanted.faces);
+  }
+}
+
+// Views without a target, in use elsewhere, or out of reach stay as they are.
+TEST(ShareBufferViews, LeavesWhatItDoesNotKnow) {
+  for (uint64_t seed = 0; seed < 300; seed++) {
+    SCOPED_TRACE(seed);
+    Document before = random_document(seed);
+    drop_unused(before);
+    Document after = before;
+    share_buffer_views(after);
+    EXPECT_EQ(after.json, before.json);
+    for (Json& view : before.json["bufferViews"]) view["target"] = 34962;
+    share_buffer_views(before);
+    EXPECT_EQ(*read_image(after, 0), *read_image(before, 0));
+  }
+}
+
 TEST(SingleBuffer, KeepsAllBytesAndTheirAlignment) {
   for (uint64_t seed = 0; seed < 300; seed++) {
     SCOPED_TRACE(seed);

@@ -111,6 +111,27 @@ TEST(ProgressiveMesh, SmallPiecesVanishBeforeTheLargeOneSuffers) {
   EXPECT_NEAR(area_of(level_of(progressive, progressive.base_vertices())), knot_area, 0.1 * knot_area);
 }
 
+// An order that was taken further and undone is the one that ended there.
+TEST(SimplifiedMesh, AnyLevelCanBeTheCoarsest) {
+  for (const auto& [name, mesh] : nasty_meshes()) {
+    SCOPED_TRACE(name);
+    const SimplifiedMesh simplified = simplify(mesh, {{}, 4}, silent).value();
+    const std::vector<SimplifiedMesh::Level> levels = simplified.levels();
+    for (size_t rounds = 0; rounds < levels.size(); rounds++) {
+      const ProgressiveMesh progressive = refine_after(simplified, rounds);
+      EXPECT_EQ(progressive.base_vertices(), levels[rounds].vertices);
+      EXPECT_EQ(progressive.base_faces, levels[rounds].faces);
+      EXPECT_EQ(progressive.passes.size(), rounds);
+      EXPECT_EQ(rounds == 0 ? 0 : progressive.passes[0].error, levels[rounds].error);
+      const ProgressiveMesh direct = build(mesh, levels[rounds].vertices);
+      EXPECT_EQ(progressive.parent, direct.parent);
+      EXPECT_EQ(progressive.appears_with, direct.appears_with);
+      EXPECT_EQ(progressive.mesh.positions, direct.mesh.positions);
+      EXPECT_EQ(progressive.mesh.faces, direct.mesh.faces);
+    }
+  }
+}
+
 TEST(ProgressiveMesh, CanBeCancelled) {
   struct Cancelled : Progress {
     bool cancelled() const override { return true; }

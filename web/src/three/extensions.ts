@@ -9,7 +9,6 @@ export interface StreamsExtension {
   id: string;
   /** In stops: pictures are multiplied by 2 to this power. */
   exposure?: number;
-  streams: { kind: 'light' | 'mesh' | 'texture'; bytes: number }[];
 }
 
 /** On a primitive. */
