@@ -18,9 +18,7 @@ Place place_of(const Json& lamp) {
   const Json& kind = member(lamp, "kind");
   if (kind == "rectangle" || kind == "sphere") place.kind = Luminaire::Kind::surface;
   place.node = index_of(lamp, "node");
-  const Json& center = member(lamp, "center");
-  for (size_t axis = 0; axis < 3 && center.is_array() && axis < center.size(); axis++)
-    if (center[axis].is_number()) place.center.e[axis] = center[axis].get<float>();
+  place.center = numbers<3>(lamp, "center", {}).cast<float>();
   return place;
 }
 

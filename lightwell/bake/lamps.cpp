@@ -10,10 +10,6 @@
 namespace lightwell {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
-float mean(const Vec3f& color) { return (color[0] + color[1] + color[2]) / 3; }
-
 // A piece of emissive surface, in scene space.
 struct Shape {
   struct Facet {
@@ -178,15 +174,17 @@ LampPlan plan_lamps(const TraceScene& scene, size_t most) {
   const std::vector<Luminaire>& luminaires = scene.lights().luminaires();
   std::vector<size_t> by_power(luminaires.size());
   std::iota(by_power.begin(), by_power.end(), size_t(0));
-  std::stable_sort(by_power.begin(), by_power.end(),
-                   [&](size_t a, size_t b) { return mean(luminaires[a].power) > mean(luminaires[b].power); });
+  std::stable_sort(by_power.begin(), by_power.end(), [&](size_t a, size_t b) {
+    return mean_of_channels(luminaires[a].power) > mean_of_channels(luminaires[b].power);
+  });
   LampPlan plan;
   plan.contained.assign(luminaires.size(), 1);
   for (const size_t i : by_power) {
-    if (plan.client.size() == most) break;
+    const float power = mean_of_channels(luminaires[i].power);
+    if (plan.client.size() == most || !(power > 0)) break;
     auto lamp = describe(scene, luminaires[i]);
     if (!lamp) continue;
-    lamp->power = mean(luminaires[i].power);
+    lamp->power = power;
     plan.client.push_back(std::move(*lamp));
     plan.contained[i] = 0;
   }

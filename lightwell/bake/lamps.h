@@ -37,9 +37,10 @@ struct LampPlan {
   std::vector<uint8_t> contained;
 };
 
-/// Splits a scene's luminaires: the `most` strongest that a rectangle, a sphere or a punctual lamp describes are the
-/// client's. A piece of emissive surface is a rectangle when it lies in one plane, a sphere when it is closed and
-/// about as far from its centre everywhere; one of any other form is the grid's, and so is the environment.
+/// Splits a scene's luminaires: of those that give light, the `most` strongest that a rectangle, a sphere or a punctual
+/// lamp describes are the client's. A piece of emissive surface is a rectangle when it lies in one plane, a sphere when
+/// it is closed and about as far from its centre everywhere; one of any other form is the grid's, and so is the
+/// environment.
 LampPlan plan_lamps(const TraceScene& scene, size_t most = 16);
 
 }  // namespace lightwell

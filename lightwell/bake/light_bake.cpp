@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/light_bake.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 
@@ -87,6 +88,27 @@ Worker trace_photons(const TraceScene& scene, const Solids& solids, const GridSh
   return std::move(sum);
 }
 
+/// A flag a node: it stands in free space, of which its box has a share.
+std::vector<uint8_t> valid_nodes(const TraceScene& scene, const Solids& solids, const GridShape& shape,
+                                 const std::vector<float>& shares) {
+  std::vector<uint8_t> valid;
+  for (size_t node = 0; node < shares.size(); node++)
+    valid.push_back(shares[node] >= least_free_share && !is_in_thin_wall(scene, solids, shape, node));
+  return valid;
+}
+
+/// The mean of the half bakes at the valid nodes, nothing at the others.
+std::vector<Moments> mean_of_halves(const std::vector<Moments>& a, const std::vector<Moments>& b,
+                                    const std::vector<uint8_t>& valid) {
+  std::vector<Moments> mean(a.size());
+  for (size_t node = 0; node < a.size(); node++) {
+    if (!valid[node]) continue;
+    mean[node] += a[node] * 0.5f;
+    mean[node] += b[node] * 0.5f;
+  }
+  return mean;
+}
+
 /// The noise of (a + b) / 2 as a share of its size, over the six E of the valid nodes.
 float relative_noise(const std::vector<Moments>& a, const std::vector<Moments>& b, const std::vector<uint8_t>& valid) {
   double difference = 0, size = 0;
@@ -123,12 +145,14 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
 
   statistics.photons = options.photons;
   statistics.rays = traced.flights;
-  statistics.escaped = static_cast<float>(static_cast<double>(traced.escaped) / static_cast<double>(traced.flights));
+  // There is no flight at all when every photon began where its source is black.
+  statistics.escaped = static_cast<float>(static_cast<double>(traced.escaped) /
+                                          static_cast<double>(std::max<uint64_t>(traced.flights, 1)));
   const bool closed = static_cast<double>(statistics.escaped) < closed_escapes;
   solids.decide(traced.hits);
   const std::vector<float> shares = free_shares(scene, solids, grid.shape, closed, ~options.seed, options.threads);
-  for (size_t node = 0; node < shares.size(); node++)
-    grid.valid.push_back(shares[node] >= least_free_share && !is_in_thin_wall(scene, solids, grid.shape, node));
+  grid.valid = valid_nodes(scene, solids, grid.shape, shares);
+  statistics.invalid_nodes = static_cast<size_t>(std::count(grid.valid.begin(), grid.valid.end(), 0));
 
   // A half holds half of the photons (one more of even index when their number is odd).
   const float flux = reference_flux(scene);
@@ -136,15 +160,7 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   const std::vector<Moments> a = traced.halves[0].moments(flux / static_cast<float>(options.photons - odd), shares);
   const std::vector<Moments> b = traced.halves[1].moments(flux / static_cast<float>(odd), shares);
   statistics.estimated_error = relative_noise(a, b, grid.valid);
-  grid.moments.resize(grid.shape.count());
-  for (size_t node = 0; node < grid.moments.size(); node++) {
-    if (!grid.valid[node]) {
-      statistics.invalid_nodes++;
-      continue;
-    }
-    grid.moments[node] += a[node] * 0.5f;
-    grid.moments[node] += b[node] * 0.5f;
-  }
+  grid.moments = mean_of_halves(a, b, grid.valid);
   fill_invalid(grid);
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return grid;

@@ -2,6 +2,8 @@
 #include "lightwell/bake/pack_images.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/scene/import_gltf_material.h"
@@ -12,6 +14,9 @@ namespace {
 
 constexpr size_t preview_budget = 8192;      // bytes, of all previews together
 constexpr size_t stream_worth_bytes = 1024;  // a file that is this close to its preview goes into the opening
+
+// They name a texture's image in a format that glTF itself does not know.
+constexpr std::array other_formats = {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"};
 
 // The longest side of a preview: half a byte a pixel is what small PNG and JPEG files take.
 int preview_side(size_t images) {
@@ -36,19 +41,17 @@ void use_plain_sources(Document& document) {
     const int source = image_of(texture);
     if (source >= 0) texture["source"] = source;
     if (!texture.contains("extensions")) continue;
-    for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"})
-      texture["extensions"].erase(name);
+    for (const char* name : other_formats) texture["extensions"].erase(name);
     if (texture["extensions"].empty()) texture.erase("extensions");
   }
-  for (const char* name : {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"})
-    forget_extension(document.json, name);
+  for (const char* name : other_formats) forget_extension(document.json, name);
 }
 
 // What becomes of one image: the bytes that the opening holds, and the file to stream, if it is worth that.
 struct Shrunk {
   std::vector<uint8_t> opening;
   ImageFormat format = ImageFormat::png;
-  std::vector<StreamedImage> streamed;
+  std::optional<StreamedImage> streamed;
 };
 
 Shrunk shrink(const Scene& scene, int index, bool color, int side) {
@@ -63,7 +66,7 @@ Shrunk shrink(const Scene& scene, int index, bool color, int side) {
     shrunk.format = *format;
     return shrunk;
   }
-  StreamedImage& streamed = shrunk.streamed.emplace_back();
+  StreamedImage& streamed = shrunk.streamed.emplace();
   streamed.image = index;
   streamed.parameters = {static_cast<uint32_t>(file->size()), *format, static_cast<uint32_t>(image.width),
                          static_cast<uint32_t>(image.height)};
@@ -81,7 +84,7 @@ std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document)
   const int side = preview_side(scene.images.size());
   for (size_t i = 0; i < scene.images.size(); i++) {
     Shrunk shrunk = shrink(scene, static_cast<int>(i), color[i], side);
-    for (StreamedImage& image : shrunk.streamed) streamed.push_back(std::move(image));
+    if (shrunk.streamed) streamed.push_back(std::move(*shrunk.streamed));
     const int view = DocumentBuilder(document).buffer_view(shrunk.opening);
     Json& json = document.json["images"][i];
     json.erase("uri");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/unpack.h"
 
-#include <cmath>
+#include <array>
 
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/light/stream.h"
@@ -108,20 +108,20 @@ Result<void> complete_images(Document& document, const PackRefinement& refinemen
 
 // Removes the LIGHTWELL_ extensions, which would be wrong of the refined document.
 void drop_extensions(Json& json) {
-  auto drop = [](Json& object, std::initializer_list<const char*> names) {
+  constexpr std::array names = {"LIGHTWELL_streams", "LIGHTWELL_light_grids", "LIGHTWELL_lamps",
+                                "LIGHTWELL_progressive_mesh", "LIGHTWELL_progressive_texture"};
+  const auto drop = [&](Json& object) {
     if (!object.contains("extensions")) return;
     for (const char* name : names) object["extensions"].erase(name);
     if (object["extensions"].empty()) object.erase("extensions");
   };
-  drop(json, {"LIGHTWELL_streams", "LIGHTWELL_light_grids", "LIGHTWELL_lamps"});
+  drop(json);
   if (json.contains("meshes"))
     for (Json& mesh : json["meshes"])
-      for (Json& primitive : mesh["primitives"]) drop(primitive, {"LIGHTWELL_progressive_mesh"});
+      for (Json& primitive : mesh["primitives"]) drop(primitive);
   if (json.contains("textures"))
-    for (Json& texture : json["textures"]) drop(texture, {"LIGHTWELL_progressive_texture"});
-  for (const char* name : {"LIGHTWELL_streams", "LIGHTWELL_light_grids", "LIGHTWELL_lamps",
-                           "LIGHTWELL_progressive_mesh", "LIGHTWELL_progressive_texture"})
-    forget_extension(json, name);
+    for (Json& texture : json["textures"]) drop(texture);
+  for (const char* name : names) forget_extension(json, name);
 }
 
 }  // namespace

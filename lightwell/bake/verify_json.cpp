@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/verify_json.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "lightwell/bake/unpack.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
@@ -46,17 +49,18 @@ Result<void> verify_grid(const Json& grid, const StreamEntry& entry) {
   return {};
 }
 
-// A bound of the input holds for what is decoded but for the rounding to the lattice.
+// A bound of the input holds for what is decoded but for the rounding to the lattice. One that is missing holds for
+// nothing.
 bool holds(const Json& bounds, const BaseArrays& base, float step) {
-  for (const Vec3f& p : base.positions)
-    for (int i = 0; i < 3; i++) {
-      const Json &lo = member(bounds, "min"), &hi = member(bounds, "max");
-      const auto at = static_cast<size_t>(i);
-      if (!lo.is_array() || !hi.is_array() || lo.size() != 3 || hi.size() != 3 || !lo[at].is_number() ||
-          !hi[at].is_number() || !(p[i] >= lo[at].get<float>() - step && p[i] <= hi[at].get<float>() + step))
-        return false;
-    }
-  return true;
+  const Vec3d none = Vec3d::filled(std::numeric_limits<double>::quiet_NaN());
+  const Vec3f lo = numbers<3>(bounds, "min", none).cast<float>() - Vec3f::filled(step);
+  const Vec3f hi = numbers<3>(bounds, "max", none).cast<float>() + Vec3f::filled(step);
+  const auto inside = [&](const Vec3f& p) {
+    for (int i = 0; i < 3; i++)
+      if (!(p[i] >= lo[i] && p[i] <= hi[i])) return false;
+    return true;
+  };
+  return std::all_of(base.positions.begin(), base.positions.end(), inside);
 }
 
 Result<void> verify_primitive(const Json& primitive, const StreamEntry& entry, Bytes bin) {

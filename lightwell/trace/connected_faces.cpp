@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/trace/connected_faces.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace lightwell {

@@ -33,7 +33,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment) : scale_(envi
   for (size_t i = 0; i < weights.size(); i++) {
     const float angle = solid_angle(static_cast<int>(i / static_cast<size_t>(map->width)), *map);
     const Vec3f flux = scale_ * pixel_radiance(*map, i) * angle;
-    weights[i] = (flux[0] + flux[1] + flux[2]) / 3;
+    weights[i] = mean_of_channels(flux);
     sum += flux.cast<double>();
   }
   pixels_ = Distribution(weights);

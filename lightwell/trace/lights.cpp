@@ -6,8 +6,6 @@
 namespace lightwell {
 namespace {
 
-float mean(const Vec3f& c) { return (c[0] + c[1] + c[2]) / 3; }
-
 /// KHR_lights_punctual: how much of a spot's intensity is left at an angle, by its cosine to the axis.
 float cone(const Lamp& lamp, float cosine) {
   if (lamp.kind != Lamp::Kind::spot) return 1;
@@ -64,7 +62,7 @@ Lights::Lights(const TraceScene& scene)
 
 void Lights::add(Element element, const Vec3f& power, float least_weight) {
   elements_.push_back(element);
-  weights_.push_back(std::max(mean(power), least_weight));
+  weights_.push_back(std::max(mean_of_channels(power), least_weight));
   luminaires_[static_cast<size_t>(element.luminaire)].power += power;
 }
 
@@ -78,40 +76,40 @@ void Lights::add_lamp(int index) {
 }
 
 void Lights::add_surface(uint32_t instance) {
-  const Mesh& mesh = scene_.scene().primitives[static_cast<size_t>(scene_.scene().instances[instance].primitive)].mesh;
-  const std::vector<uint32_t> pieces = connected_faces(mesh);
-  const bool double_sided = scene_.material(instance).double_sided;
+  const std::vector<uint32_t> pieces = connected_faces(scene_.mesh(instance));
   const size_t first = luminaires_.size();
   first_element_[instance] = static_cast<int>(elements_.size());
-  for (uint32_t face = 0; face < mesh.faces.size(); face++) {
+  for (uint32_t face = 0; face < pieces.size(); face++) {
     const size_t luminaire = first + pieces[face];
-    if (luminaire >= luminaires_.size()) {
-      luminaires_.resize(luminaire + 1, {.kind = Luminaire::Kind::surface, .index = static_cast<int>(instance)});
-    }
-    const Element element{.luminaire = static_cast<int>(luminaire),
-                          .instance = instance,
-                          .face = face,
-                          .triangle = triangle(instance, face),
-                          .double_sided = double_sided};
-    const Triangle& t = element.triangle;
-    Luminaire& piece = luminaires_[luminaire];
-    piece.double_sided = double_sided;
-    piece.faces.push_back(face);
-    piece.center += t.at({{1.0f / 3, 1.0f / 3}}) * t.area;
-    piece.area += t.area;
-    if (!may_shine(element)) {
-      add(element, {});
-      continue;
-    }
-    // A face that may shine is never given up because all samples missed where it does.
-    const float spread = pi * t.area * (double_sided ? 2.0f : 1.0f);
-    const float least = scene_.is_uniform(instance) ? 0 : mean(scene_.material(instance).emission) / (4 * samples);
-    add(element, mean_emission(element) * spread, least * spread);
+    if (luminaire == luminaires_.size())
+      luminaires_.push_back({.kind = Luminaire::Kind::surface, .index = static_cast<int>(instance)});
+    add_face(static_cast<int>(luminaire), instance, face);
   }
   for (size_t i = first; i < luminaires_.size(); i++) {
     Luminaire& piece = luminaires_[i];
     if (piece.area > 0) piece.center *= 1 / piece.area;
   }
+}
+
+/// Adds a face to its piece of surface, whose centre is still times its area.
+void Lights::add_face(int luminaire, uint32_t instance, uint32_t face) {
+  const Element element{.luminaire = luminaire,
+                        .instance = instance,
+                        .face = face,
+                        .triangle = triangle(instance, face),
+                        .double_sided = scene_.material(instance).double_sided};
+  const Triangle& t = element.triangle;
+  Luminaire& piece = luminaires_[static_cast<size_t>(luminaire)];
+  piece.double_sided = element.double_sided;
+  piece.faces.push_back(face);
+  piece.center += t.at({{1.0f / 3, 1.0f / 3}}) * t.area;
+  piece.area += t.area;
+  if (!may_shine(element)) return add(element, {});
+  // A face that may shine is never given up because all samples missed where it does.
+  const float spread = pi * t.area * (element.double_sided ? 2.0f : 1.0f);
+  const float least =
+      scene_.is_uniform(instance) ? 0 : mean_of_channels(scene_.material(instance).emission) / (4 * samples);
+  add(element, mean_emission(element) * spread, least * spread);
 }
 
 void Lights::add_environment() {
@@ -146,8 +144,7 @@ Vec3f Lights::emission(const Element& element, Vec2f uv) const {
 bool Lights::may_shine(const Element& element) {
   const TextureLookup& texture = scene_.material(element.instance).emission_texture;
   if (texture.image < 0) return true;
-  const Mesh& mesh =
-      scene_.scene().primitives[static_cast<size_t>(scene_.scene().instances[element.instance].primitive)].mesh;
+  const Mesh& mesh = scene_.mesh(element.instance);
   const std::vector<Vec2f>& texcoords = mesh.texcoords[texture.texcoord == 1 ? 1 : 0];
   std::array<Vec2f, 3> of_corners{};
   for (size_t i = 0; i < 3 && !texcoords.empty(); i++) of_corners[i] = texcoords[mesh.faces[element.face][i]];

@@ -96,6 +96,7 @@ class Lights {
 
   void add_lamp(int index);
   void add_surface(uint32_t instance);
+  void add_face(int luminaire, uint32_t instance, uint32_t face);
   void add_environment();
   void add(Element element, const Vec3f& power, float least_weight = 0);
   Triangle triangle(uint32_t instance, uint32_t face) const;

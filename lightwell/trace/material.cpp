@@ -105,7 +105,7 @@ Surface surface_of(const Material& material, const std::vector<Image>& images, c
   if (material.alpha == Material::Alpha::blend) surface.coverage = std::clamp(base[3], 0.0f, 1.0f);
   // What passes is as strong as the pane's mean colour allows; what is met reflects the colour's untransmitted share.
   const float transmission = material.transmission * (1 - metallic);
-  const float passing = transmission * (color[0] + color[1] + color[2]) / 3;
+  const float passing = transmission * mean_of_channels(color);
   const float met = passing < 1 ? (1 - transmission) / (1 - passing) : 0.0f;
   surface.coverage *= 1 - passing;
   surface.bsdf.diffuse = color * ((1 - metallic) * met);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/trace/sampling.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace lightwell {
 
 Frame::Frame(const Vec3f& normal) : z(normal) {

@@ -11,6 +11,9 @@ namespace lightwell {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
+/// What sources of light are chosen and ranked by.
+inline float mean_of_channels(const Vec3f& color) { return (color[0] + color[1] + color[2]) / 3; }
+
 /// Two unit vectors that make a right-handed frame with the unit vector z (Duff et al. 2017).
 struct Frame {
   Vec3f x, y, z;

@@ -177,12 +177,19 @@ void TraceScene::mark_uniform(Placed& placed) const {
   if (placed.uniform) placed.surface = surface_of(m, scene_.images, {}, Vec4f::filled(1));
 }
 
+/// Two numbers, each in a statement of its own: the order in which one expression draws is the compiler's.
+uint64_t TraceScene::salt(Random& random) const {
+  if (!lets_light_pass_) return 0;
+  const uint64_t high = random.bits();
+  return high << 32 | random.bits();
+}
+
 bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
   RTCRayHit r{};
   r.ray = embree_ray(ray);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  Context context(lets_light_pass_ ? uint64_t(random.bits()) << 32 | random.bits() : 0);
+  Context context(salt(random));
   rtcIntersect1(embree_, &context.embree, &r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
@@ -207,7 +214,7 @@ Vec3f TraceScene::front_normal(uint32_t instance, const Vec3f& by_winding) const
 
 bool TraceScene::occluded(const Ray& ray, Random& random) const {
   RTCRay r = embree_ray(ray);
-  Context context(lets_light_pass_ ? uint64_t(random.bits()) << 32 | random.bits() : 0);
+  Context context(salt(random));
   rtcOccluded1(embree_, &context.embree, &r);
   return r.tfar < 0;
 }

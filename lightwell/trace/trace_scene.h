@@ -63,7 +63,9 @@ class TraceScene {
   Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v); }
   /// The material at a point of a face; u and v are the weights of its second and third corner.
   Surface surface(uint32_t instance, uint32_t face, float u, float v) const;
+  /// Of an instance that is traced.
   const Material& material(uint32_t instance) const { return *placed_[instance].material; }
+  const Mesh& mesh(uint32_t instance) const { return *placed_[instance].mesh; }
   /// False for deforming primitives, which are left out.
   bool traced(uint32_t instance) const { return placed_[instance].mesh != nullptr; }
 
@@ -109,6 +111,7 @@ class TraceScene {
   RTCSceneTy* shared_scene(int primitive, Placed& placed);
   void mark_uniform(Placed& placed) const;
   Vec3f front_normal(uint32_t instance, const Vec3f& by_winding) const;
+  uint64_t salt(Random& random) const;
   float coverage(uint32_t instance, uint32_t face, float u, float v) const;
   static void filter(const RTCFilterFunctionNArguments* arguments);
 

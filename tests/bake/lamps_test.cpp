@@ -155,6 +155,23 @@ TEST(PlanLamps, KeepsTheStrongest) {
   for (size_t i = 0; i < 20; i++) EXPECT_EQ(lamps.contained[i], i < 4);
 }
 
+// A sliver without area and a face below a black texel give no light: no lamp, though there is room for more.
+TEST(PlanLamps, LeavesOutWhatGivesNoLight) {
+  Scene scene;
+  add(scene, rectangle(1, 1), emitter({{1, 1, 1}}));
+  Mesh sliver;
+  sliver.positions = {{{0, 0, 1}}, {{1, 0, 1}}, {{2, 0, 1}}};
+  sliver.faces = {{0, 1, 2}};
+  add(scene, sliver, emitter({{1, 1, 1}}));
+  scene.images.push_back({1, 1, 3, {0, 0, 0}});
+  Material black = emitter({{1, 1, 1}});
+  black.emission_texture.image = 0;
+  add(scene, rectangle(2, 2), black);
+  const LampPlan lamps = plan(scene);
+  ASSERT_EQ(lamps.client.size(), 1u);
+  EXPECT_EQ(lamps.client[0].radiance, (Vec3f{{1, 1, 1}}));
+}
+
 TEST(PlanLamps, GivesTheEnvironmentToTheGrid) {
   Scene scene;
   add(scene, rectangle(1, 1), Material{});
