@@ -5,7 +5,6 @@
 
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/light/stream.h"
-#include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/texture/stream.h"
 
@@ -39,11 +38,7 @@ Mesh mesh_of(const MeshDecoder& decoder) {
 
 Result<Mesh> unpack_mesh(const PackReader& pack, size_t stream, const MeshLevel& level) {
   const StreamEntry& entry = pack.directory().streams[stream];
-  ByteReader parameters(entry.parameters);
-  LW_TRY(layout, MeshLayout::read(parameters));
-  LW_TRY(places, BasePlaces::read(parameters));
-  LW_TRY(base, BaseArrays::read(layout, places, pack_bin(pack)));
-  LW_TRY(decoder, MeshDecoder::open(layout, base.view(), entry.length));
+  LW_TRY(decoder, open_mesh_stream(pack, entry));
   float error = entry.error;
   for (uint32_t block = 0; block < entry.blocks && !fine_enough(decoder, error, level); block++) {
     LW_TRY(payload, pack.block(stream, block));
@@ -129,6 +124,14 @@ void drop_extensions(Json& json) {
 Result<Json> pack_json(const PackReader& pack) { return parse_json(glb_chunks(pack.opening()).json); }
 
 Bytes pack_bin(const PackReader& pack) { return glb_chunks(pack.opening()).bin; }
+
+Result<MeshDecoder> open_mesh_stream(const PackReader& pack, const StreamEntry& entry) {
+  ByteReader parameters(entry.parameters);
+  LW_TRY(layout, MeshLayout::read(parameters));
+  LW_TRY(places, BasePlaces::read(parameters));
+  LW_TRY(base, BaseArrays::read(layout, places, pack_bin(pack)));
+  return MeshDecoder::open(layout, base.view(), entry.length);
+}
 
 Result<void> refine_document(Document& document, const PackRefinement& refinement) {
   LW_CHECK(refine_meshes(document, refinement));

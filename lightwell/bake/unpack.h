@@ -5,6 +5,7 @@
 
 #include "lightwell/gltf/document.h"
 #include "lightwell/light/push_pull.h"
+#include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/reader.h"
 
 namespace lightwell {
@@ -21,6 +22,9 @@ Result<Json> pack_json(const PackReader& pack);
 
 /// The data of its BIN chunk, good as long as the reader.
 Bytes pack_bin(const PackReader& pack);
+
+/// The decoder of a mesh stream of a pack, at its coarsest level. Fails when stream and BIN chunk do not fit.
+Result<MeshDecoder> open_mesh_stream(const PackReader& pack, const StreamEntry& entry);
 
 /// Where the finer levels of an opening come from, by stream.
 struct PackRefinement {

@@ -7,7 +7,6 @@
 #include "lightwell/bake/unpack.h"
 #include "lightwell/bake/verify_json.h"
 #include "lightwell/light/stream.h"
-#include "lightwell/mesh/base_places.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {
@@ -27,22 +26,16 @@ StreamDecoder wrap(Decoder decoder, uint64_t (*count)(const Decoder&)) {
           [shared] { return shared->complete(); }};
 }
 
-Result<StreamDecoder> open_mesh(const PackReader& pack, const StreamEntry& entry) {
-  ByteReader parameters(entry.parameters);
-  LW_TRY(layout, MeshLayout::read(parameters));
-  LW_TRY(places, BasePlaces::read(parameters));
-  LW_TRY(base, BaseArrays::read(layout, places, pack_bin(pack)));
-  LW_TRY(decoder, MeshDecoder::open(layout, base.view(), entry.length));
-  return wrap<MeshDecoder>(std::move(decoder), [](const MeshDecoder& d) { return uint64_t(d.vertices()); });
-}
-
 Result<StreamDecoder> open_stream(const PackReader& pack, const StreamEntry& entry) {
   switch (entry.kind) {
     case StreamKind::light: {
       LW_TRY(decoder, LightDecoder::open(entry.parameters, entry.length));
       return wrap<LightDecoder>(std::move(decoder), [](const LightDecoder& d) { return uint64_t(d.received()); });
     }
-    case StreamKind::mesh: return open_mesh(pack, entry);
+    case StreamKind::mesh: {
+      LW_TRY(decoder, open_mesh_stream(pack, entry));
+      return wrap<MeshDecoder>(std::move(decoder), [](const MeshDecoder& d) { return uint64_t(d.vertices()); });
+    }
     case StreamKind::texture: {
       LW_TRY(parameters, decode_texture_parameters(entry.parameters));
       return wrap<TextureDecoder>(TextureDecoder(parameters),

@@ -55,6 +55,53 @@ void estimate_errors(std::vector<LightBundle>& bundles, const std::vector<Square
   }
 }
 
+MomentsRecord record_of(const LightGrid& grid, float scale, size_t node) {
+  return encode_record(grid.moments[node] * scale, grid.valid[node]);
+}
+
+LightLayout layout_of(const LightGrid& grid, const LightStreamOptions& options) {
+  LightLayout layout;
+  layout.shape = grid.shape;
+  layout.normal_offset = grid.normal_offset;
+  layout.scale = light_scale(grid);
+  layout.seed = options.seed;
+  const int slices = *std::max_element(grid.shape.nodes.e.begin(), grid.shape.nodes.e.end());
+  layout.nodes_per_slice = std::max(1, options.bundle_nodes / slices);
+  const std::array<size_t, 8> corners = corner_nodes(grid.shape);
+  for (size_t i = 0; i < corners.size(); i++) layout.corners[i] = record_of(grid, layout.scale, corners[i]);
+  return layout;
+}
+
+// Writes the bundles one after another: each node is expected from those that came before it.
+class BundleEncoder {
+ public:
+  BundleEncoder(const LightGrid& grid, const LightLayout& layout)
+      : grid_(grid), scale_(layout.scale), field_(grid.shape) {
+    const std::array<size_t, 8> corners = corner_nodes(grid.shape);
+    for (size_t i = 0; i < corners.size(); i++) field_.set(corners[i], layout.corners[i]);
+  }
+
+  LightBundle encode(std::span<const uint32_t> nodes, Squares& squares) {
+    Writer writer;
+    for (const uint32_t node : nodes) {
+      MomentsRecord record = record_of(grid_, scale_, node);
+      if (record.valid()) squares.add(record, field_.expect(field_.neighbours(node), true));
+      coder_.code(writer, record, field_, node);
+      field_.set(node, record);
+    }
+    LightBundle bundle{.payload = writer.encoder.finish(), .nodes = static_cast<uint32_t>(nodes.size())};
+    const size_t least = (nodes.size() + light_nodes_per_byte - 1) / light_nodes_per_byte;
+    bundle.payload.resize(std::max(bundle.payload.size(), least));
+    return bundle;
+  }
+
+ private:
+  const LightGrid& grid_;
+  float scale_;
+  RecordField field_;
+  RecordCoder coder_;
+};
+
 Result<void> check_shape(const LightGrid& grid) {
   for (const int n : grid.shape.nodes.e) {
     if (n < 2 || n > LightLayout::most_nodes_an_axis)
@@ -84,40 +131,15 @@ Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions
   LW_CHECK(check_shape(grid));
   LW_ASSERT(options.bundle_nodes >= 64 && options.bundle_nodes <= 1024);
   LightStream stream;
-  LightLayout& layout = stream.layout;
-  layout.shape = grid.shape;
-  layout.normal_offset = grid.normal_offset;
-  layout.scale = light_scale(grid);
-  layout.seed = options.seed;
-  const int slices = *std::max_element(grid.shape.nodes.e.begin(), grid.shape.nodes.e.end());
-  layout.nodes_per_slice = std::max(1, options.bundle_nodes / slices);
-
-  const auto record_of = [&](size_t node) {
-    return encode_record(grid.moments[node] * layout.scale, grid.valid[node]);
-  };
-  RecordField field(grid.shape);
-  const std::array<size_t, 8> corners = corner_nodes(grid.shape);
-  for (size_t i = 0; i < 8; i++) field.set(corners[i], layout.corners[i] = record_of(corners[i]));
-
-  const LightOrder order = light_order(grid.shape, layout.seed, layout.nodes_per_slice);
-  RecordCoder coder;
+  stream.layout = layout_of(grid, options);
+  const LightOrder order = light_order(grid.shape, stream.layout.seed, stream.layout.nodes_per_slice);
+  BundleEncoder encoder(grid, stream.layout);
   std::vector<Squares> squares;
   uint32_t at = 0;
   for (const uint32_t end : order.ends) {
-    Writer writer;
-    LightBundle bundle{.payload = {}, .nodes = end - at};
-    Squares& sums = squares.emplace_back();
-    for (; at < end; at++) {
-      const size_t node = order.nodes[at];
-      MomentsRecord record = record_of(node);
-      if (record.valid()) sums.add(record, field.expect(field.neighbours(node), true));
-      coder.code(writer, record, field, node);
-      field.set(node, record);
-    }
-    bundle.payload = writer.encoder.finish();
-    bundle.payload.resize(
-        std::max<size_t>(bundle.payload.size(), (bundle.nodes + light_nodes_per_byte - 1) / light_nodes_per_byte));
-    stream.bundles.push_back(std::move(bundle));
+    const std::span<const uint32_t> nodes(order.nodes.data() + at, end - at);
+    stream.bundles.push_back(encoder.encode(nodes, squares.emplace_back()));
+    at = end;
   }
   estimate_errors(stream.bundles, squares);
   return stream;
