@@ -48,6 +48,7 @@ class Path {
       const Vec3f source = vertex_.position + arrival.direction * arrival.distance;
       const Vec3f way = source - ray.origin;
       const float whole = length(way);
+      if (whole == 0) return false;
       ray.direction = way / whole;
       ray.far = whole * (1 - 1e-4f);
     }
