@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <queue>
 
+#include "lightwell/mesh/vertex_codes.h"
+
 namespace lightwell {
 namespace {
 
@@ -16,7 +18,7 @@ uint64_t bytes_per_vertex(const Mesh& mesh) {
   if (!mesh.normals.empty()) bytes += sizeof(Vec3f);
   for (const auto& set : mesh.texcoords)
     if (!set.empty()) bytes += sizeof(Vec2f);
-  if (!mesh.colors.empty()) bytes += 4;
+  if (!mesh.colors.empty()) bytes += sizeof(Color16);
   return bytes;
 }
 

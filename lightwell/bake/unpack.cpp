@@ -29,8 +29,8 @@ Mesh mesh_of(const MeshDecoder& decoder) {
       mesh.texcoords[static_cast<size_t>(set)].assign(texcoords.begin(),
                                                       texcoords.begin() + static_cast<ptrdiff_t>(count));
   }
-  for (const Color8& c : decoder.colors().first(std::min(count, decoder.colors().size())))
-    mesh.colors.push_back(Vec4f{{float(c[0]), float(c[1]), float(c[2]), float(c[3])}} / 255.0f);
+  for (const Color16& c : decoder.colors().first(std::min(count, decoder.colors().size())))
+    mesh.colors.push_back(color_of(c));
   const auto indices = decoder.indices().first(size_t(3) * decoder.faces());
   for (size_t i = 0; i < indices.size(); i += 3) mesh.faces.push_back({indices[i], indices[i + 1], indices[i + 2]});
   return mesh;

@@ -23,7 +23,7 @@ class MeshRefiner final : public Refiner {
     if (layout.has_normals) attributes_.push_back({Semantic::normal, Component::i16, 3, true, 8});
     if (layout.has_texcoords[0]) attributes_.push_back({Semantic::texcoord_0, Component::f32, 2, false, 8});
     if (layout.has_texcoords[1]) attributes_.push_back({Semantic::texcoord_1, Component::f32, 2, false, 8});
-    if (layout.has_colors) attributes_.push_back({Semantic::color, Component::u8, 4, true, 4});
+    if (layout.has_colors) attributes_.push_back({Semantic::color, Component::u16, 4, true, 8});
   }
 
   bool accepts() const override { return !batch_; }

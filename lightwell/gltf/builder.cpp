@@ -61,11 +61,12 @@ int DocumentBuilder::accessor(const std::vector<Vec2f>& values) {
 }
 
 int DocumentBuilder::colors(const std::vector<Vec4f>& values) {
-  std::vector<std::array<uint8_t, 4>> bytes(values.size());
+  std::vector<std::array<uint16_t, 4>> numbers(values.size());
   for (size_t i = 0; i < values.size(); i++)
     for (int k = 0; k < 4; k++)
-      bytes[i][static_cast<size_t>(k)] = static_cast<uint8_t>(std::lround(std::clamp(values[i][k], 0.0f, 1.0f) * 255));
-  const int index = accessor(bytes_of(bytes), static_cast<int>(Component::u8), "VEC4", values.size(), array_buffer);
+      numbers[i][static_cast<size_t>(k)] =
+          static_cast<uint16_t>(std::lround(std::clamp(values[i][k], 0.0f, 1.0f) * 65535));
+  const int index = accessor(bytes_of(numbers), static_cast<int>(Component::u16), "VEC4", values.size(), array_buffer);
   document_.json["accessors"].back()["normalized"] = true;
   return index;
 }

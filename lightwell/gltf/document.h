@@ -56,7 +56,7 @@ class DocumentBuilder {
   int buffer_view(Bytes bytes, int target = 0);
   int accessor(const std::vector<Vec3f>& values, bool with_bounds);
   int accessor(const std::vector<Vec2f>& values);
-  int colors(const std::vector<Vec4f>& values);  ///< as normalized bytes
+  int colors(const std::vector<Vec4f>& values);  ///< as normalized 16-bit numbers: linear bytes would band in the dark
   int indices(const std::vector<Face>& faces, size_t vertices);
   /// The attributes and indices of a mesh as the JSON of a primitive, without material.
   Json primitive(const Mesh& mesh);

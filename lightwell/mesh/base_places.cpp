@@ -52,11 +52,11 @@ Result<BaseArrays> BaseArrays::read(const MeshLayout& layout, const BasePlaces& 
     if (layout.has_texcoords[set])
       inside = inside && read_floats(arrays.texcoords[set], bin, places.texcoords[set], count);
   if (layout.has_colors) {
-    ByteReader reader = at(bin, places.colors, count, 4);
+    ByteReader reader = at(bin, places.colors, count, 8);
     inside = inside && reader.ok();
     if (inside) arrays.colors.resize(count);
-    for (Color8& color : arrays.colors)
-      for (uint8_t& channel : color) channel = reader.u8();
+    for (Color16& color : arrays.colors)
+      for (uint16_t& channel : color) channel = reader.u16();
   }
   const size_t corners = size_t(3) * layout.base_faces;
   ByteReader reader = at(bin, places.indices, corners, places.short_indices ? 2 : 4);

@@ -12,7 +12,7 @@ struct BasePlaces {
   uint32_t positions = 0;               ///< 12 bytes a vertex
   uint32_t normals = 0;                 ///< 12 bytes a vertex; 0 when absent, as are the next ones
   std::array<uint32_t, 2> texcoords{};  ///< 8 bytes a vertex
-  uint32_t colors = 0;                  ///< 4 bytes a vertex
+  uint32_t colors = 0;                  ///< 8 bytes a vertex
   uint32_t indices = 0;
   bool short_indices = false;  ///< 2 bytes an index, else 4
 
@@ -24,7 +24,7 @@ struct BasePlaces {
 struct BaseArrays {
   std::vector<Vec3f> positions, normals;
   std::array<std::vector<Vec2f>, 2> texcoords;
-  std::vector<Color8> colors;
+  std::vector<Color16> colors;
   std::vector<uint32_t> indices;
 
   MeshArrays view() const { return {positions, normals, {texcoords[0], texcoords[1]}, colors, indices}; }

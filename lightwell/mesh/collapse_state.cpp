@@ -298,7 +298,7 @@ float CollapseState::attribute_distance(uint32_t vertex, uint32_t other) const {
     }
   if (!mesh_.colors.empty())
     for (size_t i = 0; i < 4; i++)
-      distance += std::abs(color_of(mesh_.colors[vertex][i]) - color_of(mesh_.colors[other][i]));
+      distance += static_cast<float>(std::abs(mesh_.colors[vertex][i] - mesh_.colors[other][i])) / 255;
   return std::min(distance, 1.0f);
 }
 

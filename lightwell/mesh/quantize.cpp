@@ -62,15 +62,11 @@ struct Tuple {
   Vec3i position;
   NormalCode normal;
   std::array<Vec<int, 2>, 2> texcoords;
-  std::array<uint8_t, 4> color{};
+  ColorCode color{};
   uint32_t source = 0;
 
   auto key() const { return std::tie(morton, position, normal, texcoords, color); }
 };
-
-std::array<uint8_t, 4> color_codes(const Vec4f& color) {
-  return {color_code(color[0]), color_code(color[1]), color_code(color[2]), color_code(color[3])};
-}
 
 std::vector<Tuple> tuples_of(const Mesh& mesh, const std::vector<bool>& used, const QuantizedMesh& lattices) {
   std::vector<Tuple> tuples;
@@ -84,7 +80,7 @@ std::vector<Tuple> tuples_of(const Mesh& mesh, const std::vector<bool>& used, co
       if (!mesh.texcoords[set].empty())
         for (int i = 0; i < 2; i++)
           t.texcoords[set][i] = lattices.texcoord_lattices[set].code(mesh.texcoords[set][v][i]);
-    if (!mesh.colors.empty()) t.color = color_codes(mesh.colors[v]);
+    if (!mesh.colors.empty()) t.color = color_code(mesh.colors[v]);
     t.source = static_cast<uint32_t>(v);
     lowest = min(lowest, t.position);
     tuples.push_back(t);
@@ -149,8 +145,7 @@ Mesh dequantize(const QuantizedMesh& mesh) {
       const Lattice& lattice = mesh.texcoord_lattices[set];
       out.texcoords[set].push_back({{lattice.value(t[0]), lattice.value(t[1])}});
     }
-  for (const std::array<uint8_t, 4>& c : mesh.colors)
-    out.colors.push_back({{color_of(c[0]), color_of(c[1]), color_of(c[2]), color_of(c[3])}});
+  for (const ColorCode& code : mesh.colors) out.colors.push_back(color_of(color_value(code)));
   return out;
 }
 

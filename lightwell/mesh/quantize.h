@@ -27,7 +27,7 @@ struct QuantizedMesh {
   std::vector<Vec3i> positions;
   std::vector<NormalCode> normals;
   std::array<std::vector<Vec<int, 2>>, 2> texcoords;
-  std::vector<std::array<uint8_t, 4>> colors;
+  std::vector<ColorCode> colors;
   std::vector<Face> faces;
 };
 

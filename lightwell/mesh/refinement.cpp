@@ -58,7 +58,7 @@ void Refinement::add_base(const MeshArrays& base) {
     for (size_t set = 0; set < 2; set++)
       if (layout_.has_texcoords[set])
         for (int i = 0; i < 2; i++) vertex.texcoords[set][i] = layout_.texcoords[set].code(base.texcoords[set][v][i]);
-    if (layout_.has_colors) vertex.color = base.colors[v];
+    if (layout_.has_colors) vertex.color = color_code(base.colors[v]);
     add(vertex, v == 0 || vertex.position != last);
     last = vertex.position;
   }
@@ -85,6 +85,8 @@ Vec<int, 2> Refinement::texcoord(int set, uint32_t vertex) const {
   const Vec2f& t = texcoord_buffers[s][vertex];
   return {{layout_.texcoords[s].exact_code(t[0]), layout_.texcoords[s].exact_code(t[1])}};
 }
+
+ColorCode Refinement::color(uint32_t vertex) const { return color_code(color_buffer[vertex]); }
 
 void Refinement::add(const NewVertex& vertex, bool begins_point) {
   const uint32_t v = vertices();
@@ -137,7 +139,7 @@ void Refinement::add_attributes(const NewVertex& vertex) {
       Vec2f& texcoord = texcoord_buffers[set].emplace_back();
       for (int i = 0; i < 2; i++) texcoord[i] = layout_.texcoords[set].value(vertex.texcoords[set][i]);
     }
-  if (layout_.has_colors) color_buffer.push_back(vertex.color);
+  if (layout_.has_colors) color_buffer.push_back(color_value(vertex.color));
 }
 
 void Refinement::add_linked(const Face& face) {

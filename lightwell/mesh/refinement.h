@@ -31,7 +31,7 @@ struct NewVertex {
   Vec3i position;
   NormalCode normal;
   std::array<Vec<int, 2>, 2> texcoords;
-  Color8 color{};
+  ColorCode color{};
 };
 
 /// A mesh between its coarsest and its final level, with the faces at each vertex. Encoder and decoder keep equal ones.
@@ -52,6 +52,7 @@ class Refinement {
 
   Vec3i position(uint32_t vertex) const;
   Vec<int, 2> texcoord(int set, uint32_t vertex) const;
+  ColorCode color(uint32_t vertex) const;
 
   /// Adds a vertex and rewires its faces. Its parent, its fan and the other corners of its new faces must be what the
   /// mesh has.
@@ -62,7 +63,7 @@ class Refinement {
   std::vector<Vec3f> position_buffer;
   std::vector<Normal16> normal_buffer;
   std::array<std::vector<Vec2f>, 2> texcoord_buffers;
-  std::vector<Color8> color_buffer;
+  std::vector<Color16> color_buffer;
   std::vector<uint32_t> index_buffer;
 
   MeshChanges take_changes();

@@ -268,7 +268,8 @@ void SplitCoder::color(Coder& coder, const Refinement& mesh, NewVertex& v) {
   Vec<int, 4> sum;
   int count = 0;
   const auto add = [&](uint32_t vertex) {
-    for (int i = 0; i < 4; i++) sum[i] += mesh.color_buffer[vertex][static_cast<size_t>(i)];
+    const ColorCode codes = mesh.color(vertex);
+    for (int i = 0; i < 4; i++) sum[i] += codes[static_cast<size_t>(i)];
     count++;
   };
   add(v.parent);

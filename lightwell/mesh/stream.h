@@ -17,7 +17,7 @@ namespace lightwell {
 struct ProgressiveMesh;
 
 /// Vertices and faces that a byte of a payload may stand for at most, so that a decoder's memory is bounded by the
-/// bytes that have arrived: at 60 bytes a vertex and 24 a face. Encoders pad a payload that is shorter; a flat grid of
+/// bytes that have arrived: at 64 bytes a vertex and 24 a face. Encoders pad a payload that is shorter; a flat grid of
 /// squares has 2.5, scans have 0.5.
 inline constexpr uint32_t elements_per_byte = 4;
 
@@ -50,21 +50,20 @@ struct MeshBlock {
 
 struct EncodedMesh {
   MeshLayout layout;
-  Mesh base;  ///< the coarsest level; stored as floats, colours as 8 bits, it gives the decoder its codes back exactly
+  Mesh base;  ///< the coarsest level; stored as floats, colours as 16 bits, it gives the decoder its codes back exactly
   std::vector<MeshBlock> blocks;
 };
 
 /// Writes a progressive mesh as layout, base and blocks of about `block_vertices` new vertices.
 EncodedMesh encode(const ProgressiveMesh& mesh, uint32_t block_vertices = 1024);
 
-using Color8 = std::array<uint8_t, 4>;
 using Normal16 = std::array<int16_t, 4>;
 
 /// The arrays of a coarsest level as they come from glTF accessors. Absent attributes are empty.
 struct MeshArrays {
   std::span<const Vec3f> positions, normals;
   std::array<std::span<const Vec2f>, 2> texcoords;
-  std::span<const Color8> colors;
+  std::span<const Color16> colors;
   std::span<const uint32_t> indices;  ///< three a face
 };
 
@@ -107,7 +106,7 @@ class MeshDecoder {
   std::span<const Vec3f> positions() const;
   std::span<const Normal16> normals() const;  ///< signed normalised x, y, z and 0; empty without normals
   std::span<const Vec2f> texcoords(int set) const;
-  std::span<const Color8> colors() const;
+  std::span<const Color16> colors() const;
   std::span<const uint32_t> indices() const;
 
   /// The changes since the last call; the first call reports the coarsest level, too.

@@ -44,7 +44,7 @@ uint64_t MeshLayout::buffer_bytes() const {
   if (has_normals) vertex += sizeof(Normal16);
   for (const bool has_set : has_texcoords)
     if (has_set) vertex += sizeof(Vec2f);
-  if (has_colors) vertex += sizeof(Color8);
+  if (has_colors) vertex += sizeof(Color16);
   return vertices * vertex + faces * uint64_t(sizeof(Face));
 }
 
@@ -177,7 +177,7 @@ std::span<const Normal16> MeshDecoder::normals() const { return state_->mesh.nor
 std::span<const Vec2f> MeshDecoder::texcoords(int set) const {
   return state_->mesh.texcoord_buffers[static_cast<size_t>(set)];
 }
-std::span<const Color8> MeshDecoder::colors() const { return state_->mesh.color_buffer; }
+std::span<const Color16> MeshDecoder::colors() const { return state_->mesh.color_buffer; }
 std::span<const uint32_t> MeshDecoder::indices() const { return state_->mesh.index_buffer; }
 MeshChanges MeshDecoder::take_changes() { return state_->mesh.take_changes(); }
 

@@ -53,7 +53,9 @@ Refinement open_base(const MeshLayout& layout, const Mesh& base, const Quantized
   arrays.positions = base.positions;
   arrays.normals = base.normals;
   for (size_t set = 0; set < 2; set++) arrays.texcoords[set] = base.texcoords[set];
-  arrays.colors = codes.colors;
+  std::vector<Color16> colors;
+  for (const ColorCode& code : codes.colors) colors.push_back(color_value(code));
+  arrays.colors = colors;
   arrays.indices = {base.faces.empty() ? nullptr : base.faces[0].data(), 3 * base.faces.size()};
   auto mesh = Refinement::open(layout, arrays);
   LW_ASSERT(mesh);

@@ -2,6 +2,7 @@
 #include "lightwell/mesh/vertex_codes.h"
 
 #include <bit>
+#include <cmath>
 
 namespace lightwell {
 namespace {
@@ -65,8 +66,27 @@ Vec3f normal_of(NormalCode code) {
   return normalized(Vec3d{{x, y, z}}).cast<float>();
 }
 
-uint8_t color_code(float channel) {
-  return channel > 0 ? static_cast<uint8_t>(std::min(channel, 1.0f) * 255.0f + 0.5f) : uint8_t(0);
+ColorCode color_code(const Vec4f& color) {
+  Color16 nearest{};
+  for (int i = 0; i < 4; i++)
+    if (color[i] > 0)
+      nearest[static_cast<size_t>(i)] = static_cast<uint16_t>(std::min(color[i], 1.0f) * 65535.0f + 0.5f);
+  return color_code(nearest);
+}
+
+ColorCode color_code(const Color16& color) {
+  ColorCode code;
+  for (size_t i = 0; i < 4; i++)
+    code[i] = static_cast<uint8_t>(std::sqrt(static_cast<float>(color[i]) / 65535.0f) * 255.0f + 0.5f);
+  return code;
+}
+
+Color16 color_value(const ColorCode& code) {
+  constexpr uint32_t one = 255 * 255;
+  Color16 value{};
+  for (size_t i = 0; i < 4; i++)
+    value[i] = static_cast<uint16_t>((uint32_t(code[i]) * code[i] * 65535 + one / 2) / one);
+  return value;
 }
 
 }  // namespace lightwell

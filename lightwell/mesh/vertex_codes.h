@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "lightwell/base/power_of_two.h"
@@ -44,8 +45,20 @@ NormalCode normal_code(const Vec<int64_t, 3>& n);
 /// The unit vector of a code.
 Vec3f normal_of(NormalCode code);
 
-/// A colour channel in [0, 1] as 8 bits, and back.
-uint8_t color_code(float channel);
-inline float color_of(uint8_t code) { return static_cast<float>(code) / 255.0f; }
+/// A colour in 8 bits a channel: the square roots of its linear channels, whose steps are about those of sRGB, also in
+/// the dark.
+using ColorCode = std::array<uint8_t, 4>;
+/// A linear colour in 65535ths.
+using Color16 = std::array<uint16_t, 4>;
+
+/// The nearest code of a linear colour. Channels are clamped to [0, 1]; what is no number counts as 0.
+ColorCode color_code(const Vec4f& color);
+ColorCode color_code(const Color16& color);
+/// The colour that a code stands for; it gives back its code.
+Color16 color_value(const ColorCode& code);
+/// A colour as numbers from 0 to 1.
+inline Vec4f color_of(const Color16& c) {
+  return Vec4f{{float(c[0]), float(c[1]), float(c[2]), float(c[3])}} / 65535.0f;
+}
 
 }  // namespace lightwell

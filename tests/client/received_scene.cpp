@@ -141,7 +141,7 @@ ReceivedScene::ReceivedMesh decode_mesh(const PackReader& reader, uint32_t strea
   add_buffer(mesh, decoder.normals(), 8);
   add_buffer(mesh, decoder.texcoords(0), 8);
   add_buffer(mesh, decoder.texcoords(1), 8);
-  add_buffer(mesh, decoder.colors(), 4);
+  add_buffer(mesh, decoder.colors(), 8);
   add_buffer(mesh, decoder.indices(), 4);
   mesh.vertices = decoder.layout().vertices;
   mesh.faces = decoder.layout().faces;

@@ -173,11 +173,10 @@ std::string add_mesh(const Mesh& mesh, bool textured, size_t stream_number, Open
     places.texcoords[0] = opening.add(base.texcoords[0], accessor(5126, count, "VEC2"));
   }
   if (!base.colors.empty()) {
-    std::vector<Color8> colors;
-    for (const Vec4f& color : base.colors)
-      colors.push_back({color_code(color[0]), color_code(color[1]), color_code(color[2]), color_code(color[3])});
+    std::vector<Color16> colors;
+    for (const Vec4f& color : base.colors) colors.push_back(color_value(color_code(color)));
     attribute("COLOR_0");
-    places.colors = opening.add(colors, accessor(5121, count, "VEC4", ",\"normalized\":true"));
+    places.colors = opening.add(colors, accessor(5123, count, "VEC4", ",\"normalized\":true"));
   }
   std::string names = Opening::list(attributes);
   names.front() = '{';

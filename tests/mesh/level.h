@@ -53,8 +53,7 @@ inline Mesh level_of(const ProgressiveMesh& progressive, uint32_t n) {
 struct OpenedBase {
   explicit OpenedBase(const Mesh& base) : mesh(base) {
     for (const Face& f : base.faces) indices.insert(indices.end(), f.begin(), f.end());
-    for (const Vec4f& c : base.colors)
-      colors.push_back({color_code(c[0]), color_code(c[1]), color_code(c[2]), color_code(c[3])});
+    for (const Vec4f& c : base.colors) colors.push_back(color_value(color_code(c)));
   }
   MeshArrays arrays() const {
     MeshArrays a;
@@ -67,7 +66,7 @@ struct OpenedBase {
   }
 
   Mesh mesh;
-  std::vector<Color8> colors;
+  std::vector<Color16> colors;
   std::vector<uint32_t> indices;
 };
 
@@ -92,10 +91,7 @@ inline Mesh shown(const MeshDecoder& decoder) {
       mesh.texcoords[static_cast<size_t>(set)].assign(decoder.texcoords(set).begin(),
                                                       decoder.texcoords(set).begin() + count);
   if (!decoder.colors().empty())
-    for (uint32_t v = 0; v < count; v++) {
-      const Color8& c = decoder.colors()[v];
-      mesh.colors.push_back({{color_of(c[0]), color_of(c[1]), color_of(c[2]), color_of(c[3])}});
-    }
+    for (uint32_t v = 0; v < count; v++) mesh.colors.push_back(color_of(decoder.colors()[v]));
   for (uint32_t f = 0; f < decoder.faces(); f++)
     mesh.faces.push_back({decoder.indices()[3 * f], decoder.indices()[3 * f + 1], decoder.indices()[3 * f + 2]});
   return mesh;

@@ -123,7 +123,7 @@ TEST(Quantize, ResultIsAFixedPoint) {
           ASSERT_EQ(once.texcoord_lattices[0].code(values.texcoords[0][v][i]), once.texcoords[0][v][i]);
       }
       if (!once.colors.empty()) {
-        for (int i = 0; i < 4; i++) ASSERT_EQ(color_code(values.colors[v][i]), once.colors[v][static_cast<size_t>(i)]);
+        ASSERT_EQ(color_code(values.colors[v]), once.colors[v]);
       }
     }
   }
@@ -163,6 +163,43 @@ TEST(Quantize, TakesTexcoordsAndColoursOfAnyKind) {
   mesh.texcoords[1] = {{{0, 1e30f}}, {{inf, 0}}, {{-inf, 1}}, {{0.5f, 0.25f}}};
   mesh.colors = {{{-1, 2, inf, 0.5f}}, {{std::numeric_limits<float>::quiet_NaN(), 0, 0, 0}}, {}, {}};
   EXPECT_TRUE(quantize(mesh, {}));
+}
+
+TEST(ColorCode, GivesItselfBack) {
+  for (int i = 0; i < 256; i++) {
+    const auto c = static_cast<uint8_t>(i);
+    const ColorCode code{c, 0, 255, c};
+    EXPECT_EQ(color_code(color_value(code)), code);
+    EXPECT_EQ(color_code(color_of(color_value(code))), code);
+  }
+  EXPECT_EQ(color_value({0, 255, 0, 0}), (Color16{0, 65535, 0, 0}));
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(color_code(Vec4f{{nan, -1, 2, inf}}), (ColorCode{0, 0, 255, 255}));
+}
+
+// Scans store colours as shades of 8-bit sRGB (IEC 61966-2-1). None moves by a whole shade: the root's steps are at
+// most 1.45 of sRGB's, where that becomes linear, and half a step is the error.
+TEST(ColorCode, MovesAShadeOfSrgbByLessThanOne) {
+  const auto linear = [](int shade) {
+    const float x = static_cast<float>(shade) / 255;
+    return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+  };
+  for (int shade = 0; shade < 256; shade++) {
+    const float value = linear(shade);
+    const float step = std::min(linear(std::min(shade + 1, 255)) - linear(std::min(shade, 254)), 1.0f);
+    EXPECT_NEAR(color_of(color_value(color_code(Vec4f::filled(value))))[0], value, 0.73f * step) << shade;
+  }
+}
+
+// CIE 1976 lightness, of which 1 is just visible. Half a step of the root is largest where lightness becomes linear, at
+// 0.008856: 903.3 * 24.5 / 255^2 = 0.34.
+TEST(ColorCode, MovesLightnessByLessThanIsVisible) {
+  const auto lightness = [](float y) { return y > 0.008856f ? 116 * std::cbrt(y) - 16 : 903.3f * y; };
+  for (int i = 0; i <= 4096; i++) {
+    const float value = static_cast<float>(i) / 4096;
+    const Vec4f kept = color_of(color_value(color_code(Vec4f::filled(value))));
+    EXPECT_NEAR(lightness(kept[0]), lightness(value), 0.35f) << value;
+  }
 }
 
 }  // namespace
