@@ -105,7 +105,7 @@ TEST(OpeningForms, CountBytesAndScaleErrors) {
   const SimplifiedMesh simplified = simplify(mesh, {{}, 8}, silent).value();
   const Forms forms = opening_forms(mesh, simplified, 1), doubled = opening_forms(mesh, simplified, 2);
   ASSERT_EQ(forms.size(), simplified.order.rounds.size() + 1);
-  const size_t vertex = 12 + 12 + 8 + 4;
+  const size_t vertex = 12 + 12 + 8 + 8;
   EXPECT_EQ(forms[0].bytes, 400 + vertex * mesh.positions.size() + 6 * mesh.faces.size());
   EXPECT_EQ(forms[0].error, 0);
   for (size_t i = 1; i < forms.size(); i++) {
