@@ -36,7 +36,7 @@ class Client::Machine {
   }
 
   bool work() {
-    if (failure_ || !download_.opened()) return false;
+    if (failure_ || !download_.opened() || opening_waits()) return false;
     if (refiners_.size() < download_.directory().streams.size()) {
       open_refiner();
       return !failure_;
@@ -46,7 +46,7 @@ class Client::Machine {
 
   std::optional<Update> take(size_t budget) {
     if (failure_) return take_failure();
-    if (!download_.opened()) return std::nullopt;
+    if (!download_.opened() || opening_waits()) return std::nullopt;
     if (!opening_taken_) {
       opening_taken_ = true;
       return OpeningUpdate{download_.opening()};
@@ -105,13 +105,26 @@ class Client::Machine {
     if (!contained) give_up({FailureUpdate::Reason::unreadable, contained.error().message()});
   }
 
-  /// What the opening itself holds of a light is there to be handed over at once, however much waits to be decoded.
+  /// True while the answer that brings the opening still brings the first block of a light: the eight corners that the
+  /// opening itself holds may lie in the dark, and the first picture is to be lit.
+  bool opening_waits() const {
+    if (opening_taken_) return false;
+    const std::vector<StreamEntry>& streams = download_.directory().streams;
+    for (size_t i = 0; i < streams.size(); i++)
+      if (streams[i].kind == StreamKind::light && streams[i].blocks > 0 && !download_.ready(i) &&
+          download_.taken(i) == 0 && requests_.bring(download_.table(i).extent(0).end()))
+        return true;
+    return false;
+  }
+
+  /// What is there of a light at first is handed over at once, however much waits to be decoded.
   void open_refiner() {
     const uint32_t stream = static_cast<uint32_t>(refiners_.size());
     auto refiner =
         make_refiner(download_.directory(), stream, glb_chunks(download_.opening()).bin, options_.fill, budget_);
     if (!refiner) return give_up({FailureUpdate::Reason::unreadable, refiner.error().message()});
     refiners_.push_back(std::move(*refiner));
+    if (download_.directory().streams[stream].kind == StreamKind::light && download_.ready(stream)) decode(stream);
     refiners_.back()->settle();
   }
 
@@ -122,14 +135,19 @@ class Client::Machine {
       const size_t stream = decoding_;
       decoding_ = (decoding_ + 1) % count;
       if (!download_.ready(stream) || !refiners_[stream]->accepts()) continue;
-      const auto decoded = refiners_[stream]->append(download_.take(stream));
-      if (!decoded)
-        give_up({FailureUpdate::Reason::unreadable, "stream " + std::to_string(stream) + ", block " +
-                                                        std::to_string(download_.taken(stream) - 1) + ": " +
-                                                        decoded.error().message()});
+      decode(stream);
       return !failure_;
     }
     return false;
+  }
+
+  /// Decodes the block of a stream that is ready.
+  void decode(size_t stream) {
+    const auto decoded = refiners_[stream]->append(download_.take(stream));
+    if (decoded) return;
+    const std::string block = std::to_string(download_.taken(stream) - 1);
+    give_up({FailureUpdate::Reason::unreadable,
+             "stream " + std::to_string(stream) + ", block " + block + ": " + decoded.error().message()});
   }
 
   bool settle_next() {

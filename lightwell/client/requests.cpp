@@ -175,6 +175,11 @@ void Requests::stop() {
   whole_.reset();
 }
 
+bool Requests::bring(uint64_t position) const {
+  return std::ranges::any_of(
+      open_, [&](const auto& open) { return open.second.cursor.position < position && position <= open.second.end; });
+}
+
 /// A pause that has ended since the last next() counts: nobody has been asked since then.
 double Requests::wake() const {
   if (stopped_) return never;

@@ -56,7 +56,8 @@ struct DrawUpdate {
 };
 
 /// A light grid as a whole, as the half-float RGBA texture of light/atlas.h. The eight corner nodes come with the
-/// opening: who calls take() after each work() has light, of these alone, before any block is decoded.
+/// opening, mostly with the first block behind it: who calls take() after each work() has that light before anything
+/// else is decoded.
 struct LightUpdate {
   uint32_t stream = 0;
   uint32_t width = 0;

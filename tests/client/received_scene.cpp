@@ -68,7 +68,7 @@ struct Apply {
   std::string operator()(const LightUpdate& update) {
     if (update.atlas.size() != size_t(update.width) * update.height * update.depth * 8)
       return "an atlas of another size";
-    if (!scene.atlases.contains(update.stream) && update.nodes != 8) return "the first light is not the opening's";
+    if (update.nodes < 8) return "light without the opening's";
     scene.atlases[update.stream] = copy(update.atlas);
     return {};
   }
