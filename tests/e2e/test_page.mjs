@@ -20,6 +20,7 @@ export async function bundle(path) {
     target: 'es2022',
     write: false,
     nodePaths: [`${WEB}node_modules`],
+    alias: { 'lightwell/three': `${WEB}src/three/index.ts` },
     plugins: [glslPlugin],
   });
   return result.outputFiles[0].text;

@@ -3,7 +3,7 @@
 // An object of one's own in a pack's light (Figure 3 of RR-6983): the knot is not in the pack, was not there when the light
 // was baked, and is lit by it wherever it goes.
 import { Mesh, MeshStandardMaterial, PerspectiveCamera, Scene, TorusKnotGeometry, Vector3, WebGLRenderer } from 'three';
-import { LightwellLoader } from '../src/three/index.js';
+import { LightwellLoader } from 'lightwell/three';
 
 const renderer = new WebGLRenderer({ antialias: true });
 renderer.setSize(innerWidth, innerHeight);
