@@ -160,7 +160,7 @@ void check(const Scene& scene) {
 
 }  // namespace
 
-/// Every document becomes a scene whose numbers can be relied on, or an error of one line.
+/// Every document becomes a scene whose meshes and lights can be relied on, or an error of one line.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text = edited_document(ByteReader({data, size})).dump();
   Report report;

@@ -148,7 +148,7 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
   // There is no flight at all when every photon began where its source is black.
   statistics.escaped = static_cast<float>(static_cast<double>(traced.escaped) /
                                           static_cast<double>(std::max<uint64_t>(traced.flights, 1)));
-  const bool closed = static_cast<double>(statistics.escaped) < closed_escapes;
+  const bool closed = traced.flights > 0 && static_cast<double>(statistics.escaped) < closed_escapes;
   solids.decide(traced.hits);
   const std::vector<float> shares = free_shares(scene, solids, grid.shape, closed, ~options.seed, options.threads);
   grid.valid = valid_nodes(scene, solids, grid.shape, shares);

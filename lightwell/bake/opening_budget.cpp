@@ -27,6 +27,13 @@ uint64_t opening_bytes(const Mesh& mesh, size_t vertices, size_t faces) {
   return primitive_bytes + bytes_per_vertex(mesh) * vertices + 3 * bytes_per_index * faces;
 }
 
+// Whether a form with a stream takes hardly less than the whole mesh. Each stream is a request, and what its blocks
+// take comes on top.
+bool saves_little(const std::vector<OpeningForm>& forms, size_t form) {
+  constexpr uint64_t stream_worth_bytes = 1500;
+  return forms.front().bytes <= forms[form].bytes + stream_worth_bytes;
+}
+
 // The next finer form that has a smaller error; the form itself if there is none.
 size_t next_better(const std::vector<OpeningForm>& forms, size_t form) {
   size_t finer = form;
@@ -55,7 +62,7 @@ std::vector<size_t> share_opening(const std::vector<std::vector<OpeningForm>>& m
   std::priority_queue<std::pair<float, size_t>> by_error;
   for (size_t i = 0; i < meshes.size(); i++) {
     const std::vector<OpeningForm>& forms = meshes[i];
-    chosen.push_back(forms.front().bytes <= forms.back().bytes ? 0 : forms.size() - 1);
+    chosen.push_back(saves_little(forms, forms.size() - 1) ? 0 : forms.size() - 1);
     taken += forms[chosen[i]].bytes;
     by_error.emplace(forms[chosen[i]].error, i);
   }
@@ -63,12 +70,13 @@ std::vector<size_t> share_opening(const std::vector<std::vector<OpeningForm>>& m
     const size_t i = by_error.top().second;
     by_error.pop();
     const std::vector<OpeningForm>& forms = meshes[i];
-    size_t next = next_better(forms, chosen[i]);
-    if (forms.front().bytes <= forms[next].bytes) next = 0;
+    const uint64_t others = taken - forms[chosen[i]].bytes;
     const uint64_t limit = forms[chosen[i]].error > budget.likeness ? budget.bytes_for_likeness : budget.bytes;
-    const uint64_t with_next = taken - forms[chosen[i]].bytes + forms[next].bytes;
-    if (next == chosen[i] || with_next > std::max(limit, taken)) continue;
-    taken = with_next;
+    const auto fits = [&](size_t form) { return others + forms[form].bytes <= std::max(limit, taken); };
+    size_t next = next_better(forms, chosen[i]);
+    if (saves_little(forms, next) && fits(0)) next = 0;
+    if (next == chosen[i] || !fits(next)) continue;
+    taken = others + forms[next].bytes;
     chosen[i] = next;
     by_error.emplace(forms[next].error, i);
   }

@@ -15,12 +15,13 @@ namespace {
 
 // The largest factor by which an instance of each primitive stretches lengths.
 std::vector<float> largest_scales(const Scene& scene) {
+  constexpr double largest = 1e30;  // errors times scales stay finite
   std::vector<float> scales(scene.primitives.size(), 0);
   for (const Instance& instance : scene.instances) {
     const Transform& m = instance.to_scene;
     const double stretch = std::max({length(m.x), length(m.y), length(m.z)});
     float& scale = scales[static_cast<size_t>(instance.primitive)];
-    scale = std::max(scale, static_cast<float>(stretch));
+    scale = std::max(scale, static_cast<float>(std::min(stretch, largest)));
   }
   return scales;
 }
@@ -47,35 +48,28 @@ std::vector<int> refined_primitives(const Scene& scene) {
   return refined;
 }
 
-Result<std::vector<SimplifiedMesh>> simplify_all(const Scene& scene, const std::vector<int>& refined,
-                                                 const std::vector<float>& scales, const PackOptions& options,
-                                                 Progress& progress) {
-  std::vector<std::optional<SimplifiedMesh>> simplified(refined.size());
-  std::mutex mutex;
-  Result<void> outcome;
-  size_t total = 0, done = 0;
-  for (const int primitive : refined) total += scene.primitives[static_cast<size_t>(primitive)].mesh.positions.size();
-  progress.stage("ordering meshes", static_cast<double>(total), "vertices");
-  Cancellation cancellation(progress);
-  parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
-    const auto primitive = static_cast<size_t>(refined[i]);
-    const Mesh& mesh = scene.primitives[primitive].mesh;
-    SimplifyOptions simplify_options;
-    simplify_options.base_vertices = fewest_vertices;
-    if (options.position_error > 0 && scales[primitive] > 0)
-      simplify_options.quantize.position_error = options.position_error / scales[primitive];
-    auto result = simplify(mesh, simplify_options, cancellation);
-    const std::lock_guard lock(mutex);
-    if (result)
-      simplified[i].emplace(std::move(*result));
-    else if (outcome)
-      outcome = fail(result.error());
-    progress.advance(static_cast<double>(done += mesh.positions.size()));
-  });
-  LW_CHECK(outcome);
-  std::vector<SimplifiedMesh> all;
-  for (std::optional<SimplifiedMesh>& mesh : simplified) all.push_back(std::move(*mesh));
-  return all;
+// Counts the vertices of meshes that are worked on side by side.
+class SharedCount {
+ public:
+  SharedCount(Progress& progress, size_t total) : progress_(progress) {
+    progress_.stage("ordering meshes", static_cast<double>(total), "vertices");
+  }
+  void add(size_t vertices) {
+    const std::lock_guard lock(mutex_);
+    progress_.advance(static_cast<double>(done_ += vertices));
+  }
+
+ private:
+  Progress& progress_;
+  std::mutex mutex_;
+  size_t done_ = 0;
+};
+
+SimplifyOptions simplify_options(const PackOptions& options, float scale) {
+  SimplifyOptions simplify;
+  simplify.base_vertices = fewest_vertices;
+  if (options.position_error > 0 && scale > 0) simplify.quantize.position_error = options.position_error / scale;
+  return simplify;
 }
 
 }  // namespace
@@ -83,22 +77,40 @@ Result<std::vector<SimplifiedMesh>> simplify_all(const Scene& scene, const std::
 Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress) {
   const std::vector<int> refined = refined_primitives(scene);
   const std::vector<float> scales = largest_scales(scene);
-  LW_TRY(simplified, simplify_all(scene, refined, scales, options, progress));
+  const auto mesh_of = [&](size_t i) -> const Mesh& { return scene.primitives[static_cast<size_t>(refined[i])].mesh; };
+  const auto scale_of = [&](size_t i) { return scales[static_cast<size_t>(refined[i])]; };
+  size_t total = 0;
+  for (size_t i = 0; i < refined.size(); i++) total += mesh_of(i).positions.size();
+  SharedCount count(progress, 2 * total);  // each mesh is simplified, then encoded
+  Cancellation cancellation(progress);
 
-  std::vector<std::vector<OpeningForm>> forms;
-  for (size_t i = 0; i < refined.size(); i++) {
-    const auto primitive = static_cast<size_t>(refined[i]);
-    forms.push_back(opening_forms(scene.primitives[primitive].mesh, simplified[i], scales[primitive]));
-  }
+  std::vector<std::optional<SimplifiedMesh>> simplified(refined.size());
+  std::vector<Result<void>> outcomes(refined.size());
+  std::vector<std::vector<OpeningForm>> forms(refined.size());
+  parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
+    auto mesh = simplify(mesh_of(i), simplify_options(options, scale_of(i)), cancellation);
+    if (!mesh) {
+      outcomes[i] = fail(mesh.error());
+      return;
+    }
+    forms[i] = opening_forms(mesh_of(i), *mesh, scale_of(i));
+    simplified[i] = std::move(*mesh);
+    count.add(mesh_of(i).positions.size());
+  });
+  for (Result<void>& outcome : outcomes) LW_CHECK(outcome);
+
   const std::vector<size_t> rounds =
       share_opening(forms, OpeningBudget::of(refined.size(), length(scene.bounds().size())));
-
   std::vector<std::optional<EncodedMesh>> encoded(refined.size());
   parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
-    if (rounds[i] == 0) return;
-    const ProgressiveMesh mesh = refine_after(std::move(simplified[i]), rounds[i]);
-    encoded[i] = encode(mesh);
+    if (rounds[i] > 0 && !progress.cancelled()) {
+      const ProgressiveMesh mesh = refine_after(std::move(*simplified[i]), rounds[i]);
+      encoded[i] = encode(mesh);
+    }
+    simplified[i].reset();
+    count.add(mesh_of(i).positions.size());
   });
+  if (progress.cancelled()) return fail("meshes", "cancelled");
 
   std::vector<StreamedMesh> streamed;
   // A mesh of degenerate faces only has no coarsest level: it stays in the opening as it is.

@@ -71,8 +71,8 @@ class DocumentBuilder {
 /// numbers the others anew wherever references.h knows of a reference.
 void drop_unused(Document& document);
 
-/// Puts arrays of vertices and indices that have buffer views of their own into a few that they share: one for each
-/// size of element. JSON says as much about a view as about an array. What is unused is dropped.
+/// Puts the arrays of meshes that have buffer views of their own into a few that they share: one for each size of
+/// element. JSON says as much about a view as about an array. What is unused is dropped.
 void share_buffer_views(Document& document);
 
 /// The document with at most one buffer and every image inside it. An image that cannot be read becomes a white pixel

@@ -7,61 +7,68 @@
 namespace lightwell {
 namespace {
 
-constexpr int array_buffer = 34962;
+/// What an accessor is for; its number is glTF's target of its buffer view.
+enum class Role { unused = 0, other = 1, vertices = 34962, indices = 34963 };
 
-/// What the arrays of one view have in common: glTF's target, and bytes from an element to the next.
-struct ViewKind {
-  int target = 0;
-  size_t stride = 0;
+/// What the arrays of one view have in common: their role, and bytes from an element to the next.
+using ViewKind = std::pair<Role, size_t>;
 
-  auto operator<=>(const ViewKind&) const = default;
+struct Uses {
+  std::vector<Role> accessors;  ///< other: of several roles, or of none in a mesh
+  std::vector<int> views;       ///< how many elements refer to each
 };
 
-std::vector<int> references_to_views(const Json& json) {
-  std::vector<int> references(member(json, "bufferViews").size());
-  for_each_reference(json, [&](const Json& value, std::string_view to, const std::string&) {
-    const int64_t index = whole_number(value);
-    if (to == "bufferViews" && index >= 0 && static_cast<size_t>(index) < references.size())
-      references[static_cast<size_t>(index)]++;
+Uses uses_of(const Json& json) {
+  Uses uses{std::vector<Role>(member(json, "accessors").size(), Role::unused),
+            std::vector<int>(member(json, "bufferViews").size())};
+  for_each_reference(json, [&](const Json& value, std::string_view to, const std::string& place) {
+    const auto index = static_cast<size_t>(whole_number(value));
+    if (to == "bufferViews" && index < uses.views.size()) uses.views[index]++;
+    if (to != "accessors" || index >= uses.accessors.size()) return;
+    const bool of_mesh = place.starts_with("meshes[");
+    const Role role = !of_mesh ? Role::other : place.ends_with(".indices") ? Role::indices : Role::vertices;
+    Role& known = uses.accessors[index];
+    known = known == Role::unused || known == role ? role : Role::other;
   });
-  return references;
+  return uses;
 }
 
-/// The kind of view that could hold an accessor's elements; target 0 when they have to stay where they are. A stride
-/// is a multiple of four, as glTF asks of vertices.
-ViewKind kind_of(const Document& document, int accessor, const std::vector<int>& references) {
-  const Json& json = document.json["accessors"][static_cast<size_t>(accessor)];
-  const int index = index_of(json, "bufferView");
-  if (index < 0 || references[static_cast<size_t>(index)] != 1 || !locate(document, accessor)) return {};
-  const Json& view = document.json["bufferViews"][static_cast<size_t>(index)];
-  const ViewKind kind{index_of(view, "target"), element_type(json).size()};
-  const bool aligned = kind.target != array_buffer || kind.stride % 4 == 0;
-  return aligned && kind.target > 0 && !view.contains("byteStride") ? kind : ViewKind{};
+/// Whether an accessor's elements can be moved into a view of others: they have a view of their own, one after the
+/// other without gaps, and vertices take a multiple of four bytes, as glTF asks of strides.
+bool movable(const Document& document, const Uses& uses, size_t accessor) {
+  const Role role = uses.accessors[accessor];
+  const auto data = locate(document, static_cast<int>(accessor));
+  if ((role != Role::vertices && role != Role::indices) || !data || data->type.columns != 1) return false;
+  const auto view = static_cast<size_t>(index_of(document.json["accessors"][accessor], "bufferView"));
+  return uses.views[view] == 1 && data->stride == data->type.size() && (role == Role::indices || data->stride % 4 == 0);
 }
 
 }  // namespace
 
 void share_buffer_views(Document& document) {
   drop_unused(document);
-  const std::vector<int> references = references_to_views(document.json);
-  std::map<ViewKind, std::vector<size_t>> accessors;
-  for (size_t i = 0; i < member(document.json, "accessors").size(); i++)
-    if (const ViewKind kind = kind_of(document, static_cast<int>(i), references); kind.target > 0)
-      accessors[kind].push_back(i);
+  const Uses uses = uses_of(document.json);
+  std::map<ViewKind, std::vector<size_t>> kinds;
+  for (size_t i = 0; i < uses.accessors.size(); i++)
+    if (movable(document, uses, i)) {
+      const size_t stride = element_type(document.json["accessors"][i]).size();
+      kinds[{uses.accessors[i], stride}].push_back(i);
+    }
 
-  for (const auto& [kind, members] : accessors) {
+  for (const auto& [kind, members] : kinds) {
+    const auto [role, stride] = kind;
     std::vector<uint8_t> shared;
     const size_t view = document.json["bufferViews"].size();
     for (const size_t index : members) {
       const AccessorData data = locate(document, static_cast<int>(index)).value();
-      const Bytes elements = data.bytes.first(data.count * kind.stride);
+      const Bytes elements = data.bytes.first(data.count * stride);
       Json& accessor = document.json["accessors"][index];
       accessor["bufferView"] = view;
       accessor.erase("byteOffset");
       if (!shared.empty()) accessor["byteOffset"] = shared.size();
       shared.insert(shared.end(), elements.begin(), elements.end());
     }
-    append_buffer_view(document, std::move(shared), kind.target == array_buffer ? kind.stride : 0, kind.target);
+    append_buffer_view(document, std::move(shared), role == Role::vertices ? stride : 0, static_cast<int>(role));
   }
   drop_unused(document);
 }

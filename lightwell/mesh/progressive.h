@@ -69,8 +69,8 @@ struct ProgressiveMesh {
 };
 
 /// Quantises the mesh and orders it by half-edge collapse. The coarsest level has a face if any face of the mesh has
-/// three different corners. Errors: a position that is not finite; cancelled by the
-/// user. The mesh's indices must be in range.
+/// three different corners. Errors: a position that is not finite; cancelled by the user. The mesh's indices must be in
+/// range.
 Result<SimplifiedMesh> simplify(const Mesh& mesh, const SimplifyOptions& options, Progress& progress);
 
 /// The progressive mesh whose coarsest level is what `rounds` rounds leave.

@@ -76,16 +76,18 @@ ColorCode color_code(const Vec4f& color) {
 
 ColorCode color_code(const Color16& color) {
   ColorCode code;
-  for (size_t i = 0; i < 4; i++)
+  for (size_t i = 0; i < 3; i++)
     code[i] = static_cast<uint8_t>(std::sqrt(static_cast<float>(color[i]) / 65535.0f) * 255.0f + 0.5f);
+  code[3] = static_cast<uint8_t>((color[3] + 128u) / 257);
   return code;
 }
 
 Color16 color_value(const ColorCode& code) {
   constexpr uint32_t one = 255 * 255;
   Color16 value{};
-  for (size_t i = 0; i < 4; i++)
+  for (size_t i = 0; i < 3; i++)
     value[i] = static_cast<uint16_t>((uint32_t(code[i]) * code[i] * 65535 + one / 2) / one);
+  value[3] = static_cast<uint16_t>(code[3] * 257);
   return value;
 }
 

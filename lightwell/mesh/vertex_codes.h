@@ -45,8 +45,8 @@ NormalCode normal_code(const Vec<int64_t, 3>& n);
 /// The unit vector of a code.
 Vec3f normal_of(NormalCode code);
 
-/// A colour in 8 bits a channel: the square roots of its linear channels, whose steps are about those of sRGB, also in
-/// the dark.
+/// A colour in 8 bits a channel: the square roots of red, green and blue, whose steps are about those of sRGB, also in
+/// the dark, and alpha as it is.
 using ColorCode = std::array<uint8_t, 4>;
 /// A linear colour in 65535ths.
 using Color16 = std::array<uint16_t, 4>;

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
+#include "lightwell/bake/opening_budget.h"
 #include "lightwell/bake/unpack.h"
 #include "lightwell/bake/verify.h"
 #include "lightwell/base/random.h"
@@ -251,6 +253,32 @@ TEST(MakePack, TakesWhatAClientTakes) {
   document.json["asset"]["extras"]["uri"] = "https://museum.example/1";
   const Packed packed = pack(std::move(document));
   EXPECT_TRUE(verify_pack(reader_of(packed.file)).errors.empty());
+}
+
+// A row of sheets, each with 12 KB of arrays and more.
+Document row_of_sheets(int sheets) {
+  Document document;
+  DocumentBuilder builder(document);
+  Mesh sheet = painted_sheet();
+  for (int i = 0; i < sheets; i++) {
+    for (Vec3f& p : sheet.positions) p[0] += 1;
+    builder.add("meshes", {{"primitives", Json::array({builder.primitive(sheet)})}});
+    document.json["nodes"].push_back({{"mesh", i}});
+  }
+  std::vector<int> nodes(static_cast<size_t>(sheets));
+  std::iota(nodes.begin(), nodes.end(), 0);
+  builder.add("scenes", {{"nodes", nodes}});
+  return document;
+}
+
+// What the budget takes a primitive and a stream to cost in JSON and directory holds in a real pack. The grid, the
+// scene and the accessors' longer numbers are not counted: a tenth and 4 KB.
+TEST(MakePack, KeepsOpeningsToTheirBudget) {
+  for (const int sheets : {1, 20, 100}) {
+    SCOPED_TRACE(sheets);
+    const OpeningBudget budget = OpeningBudget::of(static_cast<size_t>(sheets), 1);
+    EXPECT_LT(pack(row_of_sheets(sheets)).statistics.opening_bytes, budget.bytes_for_likeness * 11 / 10 + 4096);
+  }
 }
 
 // One for positions and normals, one for indices: a view says as much in JSON as an array.

@@ -193,6 +193,15 @@ TEST(ColorCode, MovesAShadeOfSrgbByLessThanOne) {
 
 // CIE 1976 lightness, of which 1 is just visible. Half a step of the root is largest where lightness becomes linear, at
 // 0.008856: 903.3 * 24.5 / 255^2 = 0.34.
+// Half is where glTF cuts masked surfaces off: what is just there stays there.
+TEST(ColorCode, KeepsAlphaToHalfAStepOf255) {
+  for (int i = 0; i <= 1000; i++) {
+    const float alpha = static_cast<float>(i) / 1000;
+    EXPECT_NEAR(color_of(color_value(color_code(Vec4f{{0, 0, 0, alpha}})))[3], alpha, 0.501f / 255) << alpha;
+  }
+  EXPECT_GE(color_of(color_value(color_code(Vec4f{{0, 0, 0, 0.5f}})))[3], 0.5f);
+}
+
 TEST(ColorCode, MovesLightnessByLessThanIsVisible) {
   const auto lightness = [](float y) { return y > 0.008856f ? 116 * std::cbrt(y) - 16 : 903.3f * y; };
   for (int i = 0; i <= 4096; i++) {
