@@ -60,7 +60,7 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
 }
 
 Result<void> run(const Options& options, Progress& progress, Bake& bake) {
-  LW_CHECK(check_writable(options.output));
+  LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
   progress.stage("importing", 0, "");
   LW_CHECK(import_scene(options, bake));

@@ -15,7 +15,7 @@ struct Options {
 };
 
 Result<Comparison> run(const Options& options) {
-  if (!options.heat_map.empty()) LW_CHECK(check_writable(options.heat_map));
+  if (!options.heat_map.empty()) LW_CHECK(check_output(options.heat_map, {options.picture, options.reference}));
   LW_TRY(picture, read_picture(options.picture));
   LW_TRY(reference, read_picture(options.reference));
   auto comparison = compare(picture, reference, *metric_of(options.metric), Display{.tone = ToneCurve::none});

@@ -62,7 +62,7 @@ FetchGuard guard_of(const Options& options, const Progress& progress, const Cons
 }
 
 Result<FetchOutcome> run(const Options& options, const Progress& progress, const Console& console) {
-  if (!options.output.empty()) LW_CHECK(check_writable(options.output));
+  if (!options.output.empty()) LW_CHECK(check_output(options.output, {options.url}));
   LW_TRY(transport, open_transport(options));
   Client client(options.client);
   ReceivedScene scene;

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "lightwell/base/file.h"
+
 namespace lightwell {
 namespace {
 
@@ -98,6 +100,15 @@ CLI::Option* add_output(CLI::App& command, std::string& path, const std::vector<
     return {};
   };
   return add_text(command, "-o,--output", "FILE", take, help);
+}
+
+Result<void> check_output(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    std::error_code missing;
+    if (!is_device(output) && std::filesystem::equivalent(output, input, missing))
+      return fail({output, "", "would replace the file that is read; choose another name"});
+  }
+  return check_writable(output);
 }
 
 }  // namespace lightwell

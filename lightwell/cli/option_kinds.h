@@ -86,8 +86,12 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
 }
 
 /// Adds -o, the file that the command writes; its name has to end in one of `endings`, the first of which is also what
-/// stdout ("-") and devices get. Whether it can be written is asked by check_writable when the command begins.
+/// stdout ("-") and devices get. Whether it can be written is asked by check_output when the command begins.
 CLI::Option* add_output(CLI::App& command, std::string& path, const std::vector<std::string>& endings,
                         const std::string& help);
+
+/// Fails when `output` cannot be written, or is one of the files that the command reads, under this name or another: to
+/// be asked before any work.
+Result<void> check_output(const std::string& output, const std::vector<std::string>& inputs);
 
 }  // namespace lightwell

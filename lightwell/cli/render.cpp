@@ -41,7 +41,7 @@ void set_size(const Options& options, const Camera& camera, RenderOptions& rende
 }
 
 Result<Figures> run(const Options& options, Progress& progress, Report& report) {
-  LW_CHECK(check_writable(options.output));
+  LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
   Figures figures;
   LW_TRY(scene, open_scene(options.scene, report, options.mesh_level));

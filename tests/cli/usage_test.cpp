@@ -107,6 +107,31 @@ TEST_F(Commands, WhatCannotBeWrittenIsNoticedBeforeTheWork) {
   EXPECT_NE(folder.err.find("is a folder"), std::string::npos) << folder.err;
 }
 
+TEST_F(Commands, WhatIsReadIsNotReplaced) {
+  const std::string pack = small_pack(), before = read(pack);
+  fs::create_symlink(pack, path("link.glb"));
+  fs::create_hard_link(pack, path("other.glb"));
+  fs::create_directories(path("folder"));
+  for (const std::string& output : {pack, path("folder/../box.lw.glb"), path("link.glb"), path("other.glb")}) {
+    for (const std::string& command : {"bake --photons 100G " + pack, "export " + pack, "fetch --rate 1 " + pack,
+                                       "bake --photons 100G box-small --environment " + pack}) {
+      const Outcome outcome = run(command + " -o " + output);
+      EXPECT_EQ(outcome.status, 1) << command;
+      EXPECT_EQ(outcome.err, "lightwell: " + output + ": would replace the file that is read; choose another name\n");
+    }
+  }
+  EXPECT_EQ(read(pack), before);
+  write("a.png", "");
+  fs::create_hard_link(pack, path("pack.png"));
+  for (const std::string& command : {"diff missing.png " + path("a.png") + " -o " + path("a.png"),
+                                     "render --spp 1000000 " + pack + " -o " + path("pack.png")}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.status, 1) << command;
+    EXPECT_NE(outcome.err.find("would replace the file that is read"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(run("export " + pack + " -o /dev/null").status, 0);
+}
+
 TEST_F(Commands, AFullDeviceIsAnError) {
   const std::string pack = small_pack();
   const Outcome outcome = run("export " + pack + " -o /dev/full");
