@@ -24,8 +24,12 @@ export async function bundle(options) {
   return Promise.all(outputFiles.map(async ({ path, text }) => ({ path, text: path.endsWith('.js') ? await shorten(text) : text })));
 }
 
-/** No getter of three.js or ours has side effects. Functions with arguments are not inlined: they compress better as they are. */
+/**
+ * No getter of three.js or ours has side effects. Functions with arguments are not inlined and comparisons not turned round: they
+ * compress better as they are.
+ */
 async function shorten(script) {
-  const { code } = await minify(script, { module: true, ecma: 2020, compress: { passes: 3, pure_getters: true, inline: 1 } });
+  const compress = { passes: 3, pure_getters: true, inline: 1, lhs_constants: false };
+  const { code } = await minify(script, { module: true, ecma: 2020, compress });
   return code;
 }

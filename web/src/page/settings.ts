@@ -19,9 +19,8 @@ function bindLight(view: LightwellView): void {
   const direct = document.querySelector<HTMLInputElement>('#direct')!;
   const indirect = document.querySelector<HTMLInputElement>('#indirect')!;
   const apply = () => {
-    const one = direct.checked ? 'direct' : 'indirect';
-    const none = !direct.checked && !indirect.checked;
-    view.setAttribute('light', none ? 'off' : direct.checked && indirect.checked ? 'all' : one);
+    const lights = ['off', 'direct', 'indirect', 'all'];
+    view.setAttribute('light', lights[Number(direct.checked) + 2 * Number(indirect.checked)]!);
   };
   direct.addEventListener('change', apply);
   indirect.addEventListener('change', apply);

@@ -2,6 +2,7 @@
 import { type BufferGeometry, type LoadingManager, Mesh, type Object3D, type Texture } from 'three';
 import { type GLTF, GLTFLoader, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import type { PackExtensions, ProgressiveMeshExtension, ProgressiveTextureExtension } from './extensions.js';
+import { mapsOf, materialsOf, meshesIn } from './meshes.js';
 
 /** A primitive that a stream refines: the meshes that show it, one for each node. */
 export interface ProgressivePrimitive {
@@ -67,16 +68,15 @@ function meshesOf(gltf: GLTF, node: number, primitive: number): Mesh[] {
 function progressivePrimitives(gltf: GLTF): Map<number, ProgressivePrimitive> {
   const definitions = gltf.parser.json as { meshes?: { primitives: { extensions?: Record<string, unknown> }[] }[] };
   const primitives = new Map<number, ProgressivePrimitive>();
-  gltf.scene.traverse((object) => {
-    if (!(object instanceof Mesh)) return;
-    const at = gltf.parser.associations.get(object) as { meshes?: number; primitives?: number } | undefined;
+  for (const mesh of meshesIn(gltf.scene)) {
+    const at = gltf.parser.associations.get(mesh) as { meshes?: number; primitives?: number } | undefined;
     const definition = definitions.meshes?.[at?.meshes ?? -1]?.primitives[at?.primitives ?? 0];
     const extension = definition?.extensions?.['LIGHTWELL_progressive_mesh'] as ProgressiveMeshExtension | undefined;
-    if (extension === undefined) return;
+    if (extension === undefined) continue;
     const known = primitives.get(extension.stream);
-    if (known !== undefined) known.meshes.push(object);
-    else primitives.set(extension.stream, { extension, meshes: [object], base: object.geometry as BufferGeometry });
-  });
+    if (known !== undefined) known.meshes.push(mesh);
+    else primitives.set(extension.stream, { extension, meshes: [mesh], base: mesh.geometry });
+  }
   return primitives;
 }
 
@@ -102,24 +102,8 @@ function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
 /** The textures of an object's materials, with the meshes that show each; none is there twice. */
 function texturesOf(root: Object3D): Map<Texture, Set<Mesh>> {
   const textures = new Map<Texture, Set<Mesh>>();
-  root.traverse((object) => {
-    if (!(object instanceof Mesh)) return;
-    const values: (Texture | null)[] = [object.material].flat().flatMap((material) => Object.values(material));
-    for (const value of values)
-      if (value?.isTexture === true) textures.set(value, (textures.get(value) ?? new Set()).add(object));
-  });
+  for (const mesh of meshesIn(root))
+    for (const texture of materialsOf(mesh).flatMap(mapsOf))
+      textures.set(texture, (textures.get(texture) ?? new Set()).add(mesh));
   return textures;
-}
-
-/** The most maps that one of an object's materials has. */
-export function mostMaps(root: Object3D): number {
-  let most = 0;
-  root.traverse((object) => {
-    if (!(object instanceof Mesh)) return;
-    for (const material of [object.material].flat()) {
-      const maps = Object.values(material).filter((value) => (value as Texture | null)?.isTexture === true);
-      most = Math.max(most, maps.length);
-    }
-  });
-  return most;
 }

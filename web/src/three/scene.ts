@@ -7,7 +7,6 @@ import {
   DoubleSide,
   Group,
   type Material,
-  Mesh,
   type Object3DEventMap,
   SpotLight,
   Vector3,
@@ -30,7 +29,8 @@ import { LightwellLight } from './light.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp } from './lamps.js';
 import { MeshRefinement } from './mesh_refinement.js';
-import { mostMaps, type Opening } from './opening.js';
+import { mapsOf, materialsOf, meshesIn } from './meshes.js';
+import type { Opening } from './opening.js';
 import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
 import { TextureRefinement } from './texture_refinement.js';
@@ -164,9 +164,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     for (const lamp of this.lamps) lamp.dispose();
-    this.opening.gltf.scene.traverse((object) => {
-      if (object instanceof Mesh) [object.material].flat().forEach((material: Material) => material.dispose());
-    });
+    for (const material of meshesIn(this.opening.gltf.scene).flatMap(materialsOf)) material.dispose();
   }
 
   /** What was on its way to a GPU that lost everything goes there again. */
@@ -290,7 +288,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     for (const { node, primitive } of definitions)
       if (node !== undefined && primitive !== undefined)
         for (const mesh of this.opening.meshesOf(node, primitive)) mesh.castShadow = false;
-    const lamps = createLamps(definitions, this.bounds, mostMaps(this.opening.gltf.scene));
+    const maps = meshesIn(this.opening.gltf.scene).flatMap(materialsOf).map(mapsOf);
+    const lamps = createLamps(definitions, this.bounds, Math.max(0, ...maps.map(({ length }) => length)));
     for (const lamp of lamps)
       if (lamp instanceof SpotLight || lamp instanceof DirectionalLight) this.add(lamp.target);
     return lamps;
@@ -303,14 +302,13 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
 /** Surfaces cast and take shadows on both sides, as in the bake. */
 function prepareMeshes(root: Group, ambientOcclusion: boolean): void {
-  root.traverse((object) => {
-    if (!(object instanceof Mesh)) return;
-    object.castShadow = object.receiveShadow = true;
-    for (const material of [object.material].flat() as (Material & { aoMapIntensity?: number })[]) {
+  for (const mesh of meshesIn(root)) {
+    mesh.castShadow = mesh.receiveShadow = true;
+    for (const material of materialsOf(mesh) as (Material & { aoMapIntensity?: number })[]) {
       material.shadowSide = DoubleSide;
       if (!ambientOcclusion && material.aoMapIntensity !== undefined) material.aoMapIntensity = 0;
     }
-  });
+  }
 }
 
 /** The box of all meshes at their finest: the coarse ones may be smaller. */

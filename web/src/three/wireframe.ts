@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Mesh, type Material, type Object3D, type WebGLRenderer } from 'three';
+import type { Material, Mesh, Object3D, WebGLRenderer } from 'three';
+import { materialsOf, meshesIn } from './meshes.js';
 
 /** What this code uses of https://registry.khronos.org/webgl/extensions/WEBGL_polygon_mode/ */
 interface PolygonMode {
@@ -18,11 +19,10 @@ export function drawsEdges(renderer: WebGLRenderer): boolean {
  * a mesh that is drawn so.
  */
 export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: boolean): void {
-  root.traverse((object) => {
-    if (!(object instanceof Mesh)) return;
-    if (drawsEdges(renderer)) setEdges(object, renderer, wireframe);
-    else for (const material of [object.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
-  });
+  for (const mesh of meshesIn(root)) {
+    if (drawsEdges(renderer)) setEdges(mesh, renderer, wireframe);
+    else for (const material of materialsOf(mesh) as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
+  }
 }
 
 function setEdges(mesh: Mesh, renderer: WebGLRenderer, wireframe: boolean): void {
