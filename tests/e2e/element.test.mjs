@@ -9,8 +9,8 @@ import { startStaticServer } from './static_server.mjs';
 import { viewerPage } from './test_page.mjs';
 import { complete } from './view.mjs';
 
-/** Shadows are drawn anew at most twice a second, so the last ones come so much behind the last triangles; milliseconds. */
-const LAST_SHADOWS = 600;
+/** So long a slow GPU takes, in milliseconds: many of the browser's frames. */
+const SLOW = 400;
 /** Much longer than ten of the browser's frames and than any pause between two of the element's; milliseconds. */
 const LONG_REST = 3000;
 
@@ -19,8 +19,8 @@ const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 5_000);
 const browser = await forAllTests(launch());
 const server = await forAllTests(startStaticServer({ ...viewerPage('/pack.lw.glb'), '/pack.lw.glb': PACK }));
 
-async function openView(t) {
-  const opened = await forTest(t, openPage(browser));
+async function openView(t, init = undefined) {
+  const opened = await forTest(t, openPage(browser, { init }));
   await opened.page.goto(server.url);
   await complete(opened.page);
   return opened;
@@ -50,9 +50,34 @@ const countDraws = (page) =>
     };
   });
 
+/** Runs in the page before its scripts: the GPU is done with nothing before SLOW. Notes when it drew last and when all was complete. */
+const SLOW_GPU = `globalThis.times = {};
+const { fenceSync, getSyncParameter, drawElements } = WebGL2RenderingContext.prototype;
+Object.assign(WebGL2RenderingContext.prototype, {
+  fenceSync(...values) {
+    return Object.assign(fenceSync.apply(this, values), { end: performance.now() + ${SLOW} });
+  },
+  getSyncParameter(fence, name) {
+    return performance.now() < fence.end ? this.UNSIGNALED : getSyncParameter.call(this, fence, name);
+  },
+  drawElements(...values) {
+    times.drawn = performance.now();
+    return drawElements.apply(this, values);
+  },
+});
+addEventListener('DOMContentLoaded', () =>
+  document.querySelector('lightwell-view').addEventListener('complete', () => (times.complete = performance.now())));`;
+
+test('completion is said when the GPU has drawn the last picture', async (t) => {
+  const { page, errors } = await openView(t, SLOW_GPU);
+  await page.waitForTimeout(3 * SLOW);
+  const { drawn, complete } = await page.evaluate(() => globalThis.times);
+  assert.ok(complete >= drawn + SLOW, `drawn last at ${drawn} ms, said at ${complete} ms`);
+  assert.deepEqual(errors, []);
+});
+
 test('a still picture is not drawn again', async (t) => {
   const { page } = await openView(t);
-  await page.waitForTimeout(LAST_SHADOWS);
   await page.waitForFunction(() => document.querySelector('lightwell-view').frameRate === 0);
   await countDraws(page);
   await frames(page, 10);

@@ -7,7 +7,7 @@ export const defined = (page) => page.waitForFunction(() => document.querySelect
 
 export const loaded = (page) => page.waitForFunction(() => document.querySelector('lightwell-view')?.loaded);
 
-/** Waits until all has come and is on the GPU; without `timeout` as long as for anything else. */
+/** Waits until all has come and is drawn; without `timeout` as long as for anything else. */
 export const complete = (page, timeout = undefined) =>
   page.waitForFunction(() => document.querySelector('lightwell-view')?.complete, undefined, { timeout });
 

@@ -246,10 +246,7 @@ export class LightwellView extends HTMLElement {
     });
     pack.addEventListener('connection', ({ state }) => this.#emit('connection', { state }));
     pack.addEventListener('failure', ({ reason, message }) => this.#onFailure(reason, message));
-    pack.addEventListener('complete', () => {
-      this.#complete = true;
-      this.#emit('complete', null);
-    });
+    pack.addEventListener('complete', () => stage.finish(() => pack === this.#pack && this.#onComplete()));
     stage.scene.add(pack);
     if (this.#paused) pack.pause();
     for (const name of ['field-of-view', 'exposure', 'light', 'wireframe']) this.#apply(name);
@@ -268,10 +265,11 @@ export class LightwellView extends HTMLElement {
   }
 
   #frame(pack: LightwellScene): void {
+    const stage = this.#stage!;
     const orbit = this.#orbit!;
     const camera = pack.opening.gltf.cameras[0] as { fov?: number } | undefined;
-    if (camera?.fov !== undefined && !this.hasAttribute('field-of-view')) this.#setFieldOfView(camera.fov);
-    orbit.frame(pack, this.#stage!.fieldOfView);
+    if (camera?.fov !== undefined && !this.hasAttribute('field-of-view')) stage.setFieldOfView(camera.fov);
+    orbit.frame(pack, stage.fieldOfView);
     this.#apply('camera-orbit');
     if (this.#wantedView !== null) orbit.view = this.#wantedView;
     this.#wantedView = null;
@@ -292,7 +290,7 @@ export class LightwellView extends HTMLElement {
       case 'camera-target':
         return this.#setCamera();
       case 'field-of-view':
-        return value === null ? undefined : this.#setFieldOfView(((parseQuantity(value) ?? Math.PI / 4) * 180) / Math.PI);
+        return value === null ? undefined : stage.setFieldOfView(((parseQuantity(value) ?? Math.PI / 4) * 180) / Math.PI);
       case 'exposure':
         return stage.setExposure(parseQuantity(value ?? '') ?? this.#pack?.exposure ?? 0);
       case 'light':
@@ -318,11 +316,6 @@ export class LightwellView extends HTMLElement {
     const now = orbit.view;
     orbit.view = { theta: theta ?? now.theta, phi: phi ?? now.phi, radius: radius ?? now.radius, target: target ?? now.target };
     orbit.save();
-  }
-
-  #setFieldOfView(degrees: number): void {
-    this.#stage!.fieldOfView = degrees;
-    this.#stage!.resize(this.clientWidth, this.clientHeight);
   }
 
   #setLight(light: (typeof LIGHTS)[number]): void {
@@ -354,6 +347,11 @@ export class LightwellView extends HTMLElement {
     this.#firstFrame = true;
     this.#poster?.classList.add('gone');
     this.#emit('firstframe', null);
+  }
+
+  #onComplete(): void {
+    this.#complete = true;
+    this.#emit('complete', null);
   }
 
   #onView(): void {

@@ -28,11 +28,9 @@ export class Stage {
   #running = true;
   #lastFrame = -Infinity;
   #interval = Infinity;
-  /** When a frame was drawn, how long the GPU took for it, and what tells that it is done. */
+  /** When the last frame was drawn, and how long the GPU took for it: endless until it is done. */
   #drawn = -Infinity;
   #duration = 0;
-  #fence: WebGLSync | null = null;
-  #fenceRequest = 0;
   #seldomRequest = 0;
   #shadowTime = -Infinity;
   #shadowTimer: ReturnType<typeof setTimeout> | undefined;
@@ -46,10 +44,7 @@ export class Stage {
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
-    this.canvas.addEventListener('webglcontextlost', (event) => {
-      event.preventDefault();
-      this.#fence = null;
-    });
+    this.canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
     this.canvas.addEventListener('webglcontextrestored', () => this.invalidateShadows());
     this.setTone('neutral');
   }
@@ -76,10 +71,17 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    const slope = Math.tan((this.fieldOfView * Math.PI) / 360) / Math.min(1, this.camera.aspect);
+    this.setFieldOfView(this.fieldOfView);
+    this.draw(performance.now());
+  }
+
+  /** `fieldOfView` in degrees. */
+  setFieldOfView(degrees: number): void {
+    this.fieldOfView = degrees;
+    const slope = Math.tan((degrees * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.camera.fov = (Math.atan(slope) * 360) / Math.PI;
     this.camera.updateProjectionMatrix();
-    this.draw(performance.now());
+    this.invalidate();
   }
 
   /** Asks for a frame. */
@@ -120,43 +122,51 @@ export class Stage {
 
   draw(time: number): void {
     cancelAnimationFrame(this.#request);
+    cancelAnimationFrame(this.#seldomRequest);
     this.#request = 0;
     const interval = time - this.#lastFrame;
     this.#interval = interval > PAUSE || this.#interval === Infinity ? interval : 0.9 * this.#interval + 0.1 * interval;
     this.#lastFrame = time;
     this.beforeFrame(Math.min(interval, PAUSE) / 1000);
     this.renderer.render(this.scene, this.camera);
-    this.#drawn = performance.now();
-    this.#gl.deleteSync(this.#fence);
-    this.#fence = this.#gl.fenceSync(this.#gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    this.#gl.flush();
-    this.#watchFence();
+    const drawn = (this.#drawn = performance.now());
+    this.#duration = Infinity;
+    this.#whenDone(() => {
+      if (drawn === this.#drawn) this.#duration = Math.min(LONGEST_FRAME, performance.now() - drawn);
+    });
     this.afterFrame();
   }
 
-  /** Looks in each of the browser's frames whether the GPU is done with the last one. */
-  #watchFence(): void {
-    cancelAnimationFrame(this.#fenceRequest);
-    if (this.#fence === null) return;
-    if (this.#gl.getSyncParameter(this.#fence, this.#gl.SYNC_STATUS) !== this.#gl.SIGNALED) {
-      this.#fenceRequest = requestAnimationFrame(() => this.#watchFence());
-      return;
-    }
-    this.#gl.deleteSync(this.#fence);
-    this.#fence = null;
-    this.#duration = Math.min(LONGEST_FRAME, performance.now() - this.#drawn);
+  /** Draws a frame now, shadows and all, and calls back when the GPU has done that. */
+  finish(then: () => void): void {
+    clearTimeout(this.#shadowTimer);
+    this.renderer.shadowMap.needsUpdate = true;
+    this.draw(performance.now());
+    this.#whenDone(then);
+  }
+
+  /** Calls back in the first of the browser's frames in which the GPU is done with all that it was told, or lost. */
+  #whenDone(then: () => void): void {
+    const gl = this.#gl;
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    const look = () => {
+      if (fence !== null && gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) return void requestAnimationFrame(look);
+      gl.deleteSync(fence);
+      then();
+    };
+    look();
   }
 
   /** Whether the GPU has been free for as long as the last frame took. */
   #rested(): boolean {
-    return this.#fence === null && performance.now() >= this.#drawn + 2 * this.#duration;
+    return performance.now() >= this.#drawn + 2 * this.#duration;
   }
 
   dispose(): void {
     this.setRunning(false);
     clearTimeout(this.#shadowTimer);
     cancelAnimationFrame(this.#seldomRequest);
-    cancelAnimationFrame(this.#fenceRequest);
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }

@@ -9,8 +9,8 @@ export function bindProgress(view: LightwellView): void {
   view.on('progress', show);
   view.on('complete', () => set('rate', 'complete'));
   setInterval(() => {
-    const rate = view.frameRate;
-    set('frame-rate', rate > 0 ? `${Math.round(rate)} fps` : 'still');
+    const rate = Math.round(view.frameRate);
+    set('frame-rate', rate > 0 ? `${rate} fps` : view.complete ? 'still' : '');
   }, FRAME_RATE_INTERVAL);
 }
 
