@@ -4,35 +4,36 @@ import type { View } from '../element/orbit.js';
 
 /** What the URL's fragment says: #pack=NAME&view=theta,phi,radius,x,y,z */
 export interface Hash {
-  pack: string | null;
-  /** Shows another pack from now on, with its own first view. */
+  /** The pack that it named at first. */
+  readonly wanted: string | null;
+  /** Names the pack that is shown from now on: the first one with the view that the URL named, others with their own. */
   setPack(name: string): void;
 }
 
-/** Keeps the camera in the URL, so that a link shows what the sender saw. */
-export function bindHash(view: LightwellView): Hash {
+/** Keeps pack and camera in the URL, so that a link shows what the sender saw. A URL that the user changes is loaded. */
+export function bindHash(element: LightwellView): Hash {
   const parameters = new URLSearchParams(location.hash.slice(1));
-  const wanted = parseView(parameters.get('view'));
-  if (wanted !== null) view.view = wanted;
-  let pack = parameters.get('pack');
-  const write = (camera: View | null) => history.replaceState(null, '', `#${fragment(pack, camera)}`);
-  view.on('camera-change', write);
+  let pack = '';
+  let view = parseView(parameters.get('view'));
+  if (view !== null) element.view = view;
+  const write = (camera: View | null) => history.replaceState(null, '', fragment(pack, camera));
+  element.on('camera-change', write);
+  addEventListener('hashchange', () => location.reload());
   return {
-    pack,
+    wanted: parameters.get('pack'),
     setPack(name) {
       pack = name;
-      write(null);
+      write(view);
+      view = null;
     },
   };
 }
 
-function fragment(pack: string | null, view: View | null): string {
-  const parts = pack === null ? [] : [`pack=${encodeURIComponent(pack)}`];
-  if (view !== null) {
-    const numbers = [view.theta, view.phi, view.radius, ...view.target].map((number) => Number(number.toFixed(4)));
-    parts.push(`view=${numbers.join(',')}`);
-  }
-  return parts.join('&');
+function fragment(pack: string, view: View | null): string {
+  const name = `#pack=${encodeURIComponent(pack)}`;
+  if (view === null) return name;
+  const numbers = [view.theta, view.phi, view.radius, ...view.target].map((number) => Number(number.toFixed(4)));
+  return `${name}&view=${numbers}`;
 }
 
 function parseView(text: string | null): View | null {

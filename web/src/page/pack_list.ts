@@ -8,27 +8,29 @@ interface Pack {
   url: string;
 }
 
-/** Shows the pack that the URL names, else the first of the server's; more than one can be chosen from. */
+/**
+ * Shows the pack that the URL names, by its file or as it is displayed, or the first of the server's when it names none. More
+ * than one can be chosen from. Throws when there is no such pack.
+ */
 export async function bindPacks(view: LightwellView, hash: Hash): Promise<void> {
+  const { wanted } = hash;
   const packs = await listPacks();
-  const first = packs.find(({ name }) => name === hash.pack) ?? packs[0];
-  if (first === undefined) throw new Error('This server has no packs.');
   const title = document.querySelector<HTMLElement>('#title')!;
   const select = document.querySelector<HTMLSelectElement>('#packs')!;
-  const show = ({ name, url }: Pack) => {
+  const show = () => {
+    const { name, url } = packs[select.selectedIndex]!;
     title.textContent = displayName(name);
     document.title = `${displayName(name)} · Lightwell`;
+    hash.setPack(name);
     view.setAttribute('src', url);
   };
-  select.replaceChildren(...packs.map(({ name }) => new Option(displayName(name), name)));
-  select.value = first.name;
+  select.replaceChildren(...packs.map(({ name }) => new Option(displayName(name))));
+  select.addEventListener('change', show);
+  select.selectedIndex = packs.findIndex(({ name }) => wanted === null || [name, displayName(name)].includes(wanted));
   select.hidden = packs.length < 2;
-  title.hidden = packs.length >= 2;
-  select.addEventListener('change', () => {
-    hash.setPack(select.value);
-    show(packs.find(({ name }) => name === select.value)!);
-  });
-  show(first);
+  title.hidden = !select.hidden;
+  if (select.selectedIndex < 0) throw new Error(`This server has no pack${wanted === null ? 's' : ` “${wanted}”`}.`);
+  show();
 }
 
 async function listPacks(): Promise<Pack[]> {
