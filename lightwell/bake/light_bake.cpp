@@ -129,7 +129,9 @@ Result<LightGrid> bake_light(const TraceScene& scene, const LightBakeOptions& op
                              LightBakeStatistics& statistics) {
   LW_ASSERT(options.nodes >= 2 && options.photons >= 2);
   if (scene.lights().dark()) {
-    return fail("lights", "nothing shines: the scene has no emissive material, no lamp and no environment");
+    return fail("",
+                "nothing shines: the scene has no emissive material, no lamp and no environment; "
+                "--environment 1,1,1 lights it from all around");
   }
   const auto start = std::chrono::steady_clock::now();
   LightGrid grid;

@@ -121,7 +121,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_output(*command, options->output, {".glb"}, "The pack to write, FILE.glb; - is stdout")->required();
   add_scene_options(*command, options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene");
   add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
-             "How far a vertex may move at most, in metres (default: 14 bits for a mesh's longest side)");
+             "How far a vertex may move at most, in metres (default: a 32,000th of its mesh's longest side)");
   command->footer(
       "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
       "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");

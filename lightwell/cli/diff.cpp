@@ -35,7 +35,7 @@ CLI::App* add_diff(CLI::App& program, Console& console, std::function<int()>& ch
   add_choice<std::string>(
       *command, "--metric", options->metric,
       {{"rmse", "rmse"}, {"relmse", "relmse"}, {"deltae", "deltae"}, {"lab", "lab"}, {"flip", "flip"}},
-      "How they are compared; lab is S08's mean difference in Lab, percent");
+      "How they are compared; lab is the distance in CIE Lab, in percent of the range of L");
   add_output(*command, options->heat_map, {".png"}, "A PNG of the differences; - is stdout");
   command->footer("Example:\n  lightwell diff page.png reference.png --metric deltae -o where.png");
   command->callback([=, &console, &chosen] {

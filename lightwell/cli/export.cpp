@@ -2,6 +2,7 @@
 #include "lightwell/bake/unpack.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/cli/pack_name.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/write_ply.h"
 
@@ -39,6 +40,7 @@ Mesh merge(const Scene& scene) {
 
 Result<Outcome> write(const Options& options, Report& report) {
   LW_CHECK(check_output(options.output, {options.pack}));
+  LW_CHECK(refuse_builtin_scene(options.pack));
   LW_TRY(pack, PackReader::open_file(options.pack));
   LW_TRY(document, unpack_document(pack, options.level, report));
   LW_TRY(scene, scene_from_document(document, "", report));

@@ -2,10 +2,13 @@
 #include "lightwell/transport/fetch.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <regex>
 
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/cli/pack_name.h"
 #include "lightwell/cli/received_scene.h"
 
 namespace lightwell {
@@ -20,28 +23,36 @@ struct Options {
   double timeout = 30;  ///< seconds; 0 is never
 };
 
-// "localhost:8080/packs/room.lw.glb" is what a browser takes for a URL.
-bool names_a_port(const std::string& text) {
-  const std::string authority = text.substr(0, text.find('/'));
-  const size_t colon = authority.rfind(':');
-  return colon != std::string::npos && colon > 0 && colon + 1 < authority.size() &&
-         std::all_of(authority.begin() + static_cast<ptrdiff_t>(colon) + 1, authority.end(),
-                     [](char c) { return c >= '0' && c <= '9'; });
+// What a browser takes for a URL: "localhost:8080/packs/room.lw.glb", "example.com/room.lw.glb", "ftp://example".
+bool resembles_url(const std::string& text) {
+  static const std::regex beginning(R"(^([^/]+:\d+(/|$)|\w[\w-]*(\.\w[\w-]*)+/|\w+://))");
+  return std::regex_search(text, beginning);
 }
 
 Result<std::vector<uint8_t>> read_pack(const std::string& path) {
+  LW_CHECK(refuse_builtin_scene(path));
   std::error_code unknown;
-  if (names_a_port(path) && !std::filesystem::exists(path, unknown))
+  if (!std::filesystem::exists(path, unknown) && resembles_url(path))
     return fail({path, "", "no such file; a URL begins with http://"});
   return read_file(path);
 }
 
+// Small letters before "://": a scheme is the same in large ones (RFC 3986, 3.1).
+std::string with_plain_scheme(std::string url) {
+  const size_t end = url.find("://");
+  if (end != std::string::npos)
+    std::transform(url.begin(), url.begin() + static_cast<ptrdiff_t>(end), url.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return url;
+}
+
 Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
   std::unique_ptr<Transport> transport;
-  if (options.url.starts_with("https://"))
+  const std::string url = with_plain_scheme(options.url);
+  if (url.starts_with("https://"))
     return fail("", "https is not spoken here; save the file with another program, such as curl, and fetch that");
-  if (options.url.starts_with("http://")) {
-    LW_TRY(http, http_transport(options.url));
+  if (url.starts_with("http://")) {
+    LW_TRY(http, http_transport(url));
     transport = std::move(http);
   } else {
     LW_TRY(bytes, read_pack(options.url));
@@ -114,7 +125,8 @@ CLI::App* add_fetch(CLI::App& program, Console& console, std::function<int()>& c
       {{"interleave", Strategy::interleave}, {"geometry", Strategy::geometry}, {"light", Strategy::light}},
       "What comes first");
   add_fill_option(*command, options->client.fill, "How missing light is filled");
-  add_count(*command, "--rate", options->bits_per_second, "Slow the line down to so many bits a second: 500k, 10M");
+  add_count(*command, "--rate", options->bits_per_second, "Slow the line down to so many bits a second: 500k, 10M",
+            "a number of bits a second, such as 500k or 10M");
   add_number(*command, "--latency", options->latency_milliseconds, {0, 1e6},
              "Delay every answer by so many milliseconds");
   add_number(*command, "--timeout", options->timeout, {0, 1e6},

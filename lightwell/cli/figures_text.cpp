@@ -20,14 +20,15 @@ struct Meaning {
 };
 
 Meaning meaning_of(const std::string& key, Unit outer) {
-  static const std::map<std::string, Meaning> known = {{"seconds", {"time", Unit::seconds}},
-                                                       {"bytes", {"size", Unit::bytes}},
-                                                       {"pack_bytes", {"size of the pack", Unit::bytes}},
-                                                       {"peak_memory", {"peak memory", Unit::bytes}},
-                                                       {"rays_per_second", {"rays a second"}},
-                                                       {"first_picture", {"first picture"}},
-                                                       {"estimated_error", {"estimated error", Unit::share}},
-                                                       {"spp", {"samples a pixel"}}};
+  static const std::map<std::string, Meaning> known = {
+      {"seconds", {"time", Unit::seconds}},
+      {"bytes", {"size", Unit::bytes}},
+      {"pack_bytes", {"size of the pack", Unit::bytes}},
+      {"peak_memory", {"peak memory", Unit::bytes}},
+      {"rays_per_second", {"rays a second"}},
+      {"first_picture", {"first picture"}},
+      {"estimated_error", {"estimated error of the irradiance, root mean square", Unit::share}},
+      {"spp", {"samples a pixel"}}};
   const auto found = known.find(key);
   return found == known.end() ? Meaning{key, outer} : found->second;
 }
@@ -43,7 +44,7 @@ std::string number_text(const Figures& number, Unit unit) {
     case Unit::share: return short_number(100 * number.get<double>()) + " %";
     case Unit::none: break;
   }
-  return number.is_number_float() ? short_number(number.get<double>()) : grouped(number.get<uint64_t>());
+  return number.is_number_unsigned() ? grouped(number.get<uint64_t>()) : short_number(number.get<double>());
 }
 
 std::string value_text(const Figures& value, Unit unit) {

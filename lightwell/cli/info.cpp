@@ -2,6 +2,7 @@
 #include "lightwell/bake/unpack.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/info_text.h"
+#include "lightwell/cli/pack_name.h"
 #include "lightwell/mesh/stream.h"
 
 namespace lightwell {
@@ -41,6 +42,7 @@ Figures grid_figures(const PackReader& pack, const Json& grid) {
 }
 
 Result<Figures> describe(const std::string& path, bool blocks) {
+  LW_CHECK(refuse_builtin_scene(path));
   LW_TRY(pack, PackReader::open_file(path));
   LW_TRY(json, pack_json(pack));
   const Json& scenes = member(json, "scenes");

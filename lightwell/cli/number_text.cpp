@@ -7,9 +7,12 @@
 namespace lightwell {
 
 std::string short_number(double number) {
-  if (number >= 1e4 && number < 1e15) return grouped(static_cast<uint64_t>(std::llround(number)));
+  const double size = std::abs(number);
+  // From 9999.5 on four digits round to 1e+04.
+  if (size >= 9999.5 && size < 1e15)
+    return std::string(number < 0 ? "-" : "").append(grouped(static_cast<uint64_t>(std::llround(size))));
   char text[32];
-  std::snprintf(text, sizeof text, "%.4g", std::abs(number) < 1e-6 ? 0 : number);
+  std::snprintf(text, sizeof text, "%.4g", size < 1e-6 ? 0 : number);
   return text;
 }
 

@@ -8,7 +8,7 @@ namespace lightwell {
 
 // Numbers for people.
 
-/// Four digits, "0.04361", or a whole number of more, "2,387,122"; what rounding left of a zero is a zero.
+/// Four digits, "0.04361", or a whole number of more, "-2,387,122"; what rounding left of a zero is a zero.
 std::string short_number(double number);
 
 /// "20,010"

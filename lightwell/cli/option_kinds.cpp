@@ -57,7 +57,7 @@ Result<int64_t> parse_whole(const std::string& text, NumberRange range) {
   return number;
 }
 
-Result<uint64_t> parse_count(const std::string& text) {
+std::optional<uint64_t> parse_count(const std::string& text) {
   constexpr double most = 1e15;
   char* end = nullptr;
   double number = std::strtod(text.c_str(), &end);
@@ -71,15 +71,17 @@ Result<uint64_t> parse_count(const std::string& text) {
     default: break;
   }
   if (end == text.c_str() || *end != 0 || !in_range(number, {0, most}) || number != std::floor(number))
-    return fail(text, "is not a count, such as 5000, 200k, 8M or 1G");
+    return std::nullopt;
   return static_cast<uint64_t>(number);
 }
 
-CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help) {
-  const auto take = [&value](const std::string& text) -> Result<void> {
-    LW_TRY(count, parse_count(text));
-    if (count == 0) return fail(text, "is not at least 1");
-    value = count;
+CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help,
+                       const std::string& expected) {
+  const auto take = [&value, expected](const std::string& text) -> Result<void> {
+    const std::optional<uint64_t> count = parse_count(text);
+    if (!count) return fail(text, "is not " + expected);
+    if (*count == 0) return fail(text, "is not at least 1");
+    value = *count;
     return {};
   };
   return add_text(command, name, "COUNT", take, help);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,8 +31,9 @@ constexpr NumberRange seed_range = {0, 1e15};
 Result<double> parse_number(const std::string& text, NumberRange range);
 /// Reads a whole number in the range.
 Result<int64_t> parse_whole(const std::string& text, NumberRange range);
-/// Reads a whole number that may end in k, M or G, small or large ("8M" is 8 000 000), or have an exponent ("1e6").
-Result<uint64_t> parse_count(const std::string& text);
+/// Reads a whole number that may end in k, M or G, small or large ("8M" is 8 000 000), or have an exponent ("1e6");
+/// nothing when the text is none.
+std::optional<uint64_t> parse_count(const std::string& text);
 
 /// Adds an option whose value is a number of the range.
 template <typename T>
@@ -57,8 +59,10 @@ CLI::Option* add_whole(CLI::App& command, const std::string& name, T& value, Num
   return add_text(command, name, "N", take, help)->default_str(std::to_string(value));
 }
 
-/// Adds an option whose value is a count of at least 1, as parse_count reads it.
-CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help);
+/// Adds an option whose value is a count of at least 1, as parse_count reads it. `expected` says to those who give
+/// something else what it is, with examples.
+CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help,
+                       const std::string& expected);
 
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);

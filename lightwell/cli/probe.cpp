@@ -66,7 +66,7 @@ CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& c
       ->type_name("FILE");
   add_choice<Integrator>(*command, "--integrator", options->probe.integrator,
                          {{"path", Integrator::path}, {"ivg", Integrator::ivg}},
-                         "path: path tracing; ivg: the light grid");
+                         "path: path tracing; ivg: the light grid (an irradiance vector grid)");
   add_choice<LightPart>(*command, "--quantity", options->probe.quantity,
                         {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                         "Which light is measured");

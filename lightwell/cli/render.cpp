@@ -100,7 +100,7 @@ Result<Vec<int, 2>> parse_size(const std::string& text) {
 void add_integrator_options(CLI::App& command, RenderOptions& render) {
   add_choice<Integrator>(command, "--integrator", render.integrator,
                          {{"path", Integrator::path}, {"direct", Integrator::direct}, {"ivg", Integrator::ivg}},
-                         "path: path tracing; direct: no bounces; ivg: the light grid");
+                         "path: path tracing; direct: no bounces; ivg: the light grid (an irradiance vector grid)");
   add_choice<LightPart>(command, "--only", render.part,
                         {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                         "Which light is shown");

@@ -6,6 +6,7 @@
 
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/option_kinds.h"
+#include "lightwell/cli/pack_name.h"
 #include "lightwell/server/server.h"
 
 namespace lightwell {
@@ -27,6 +28,8 @@ void announce(const std::string& url, const Console& console) {
 }
 
 int serve(const ServerOptions& options, bool open, const Console& console) {
+  for (const std::filesystem::path& pack : options.packs)
+    if (auto name = refuse_builtin_scene(pack.string()); !name) return console.fail(name.error());
   auto server = Server::listen(options);
   if (!server) return console.fail(server.error());
   running = &*server;

@@ -2,11 +2,13 @@
 #include "lightwell/bake/verify.h"
 
 #include "lightwell/cli/command.h"
+#include "lightwell/cli/pack_name.h"
 
 namespace lightwell {
 namespace {
 
 int verify(const std::string& path, const Console& console) {
+  if (auto name = refuse_builtin_scene(path); !name) return console.fail(name.error());
   auto pack = PackReader::open_file(path);
   if (!pack) return console.fail(in_file(pack.error(), path));
   const Verification verification = verify_pack(*pack);

@@ -7,6 +7,11 @@
 #include "lightwell/pack/directory.h"
 
 namespace lightwell {
+namespace {
+
+constexpr const char* no_pack = "is a glTF, but not a pack; `lightwell bake` makes one";
+
+}  // namespace
 
 Result<OpeningSize> measure_opening(Bytes prefix) {
   OpeningSize size;
@@ -22,8 +27,7 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
   uint64_t at = glb_header_bytes;
   for (const uint32_t wanted : {chunk_json, chunk_bin, chunk_lwst}) {
     size.needed = at + chunk_header_bytes;
-    if (size.needed > size.file_length)
-      return fail("header", "the file has no LWST chunk: it is a glTF, but not a pack");
+    if (size.needed > size.file_length) return fail("", no_pack);
     if (prefix.size() < size.needed) return size;
     ByteReader chunk(prefix.subspan(at));
     const uint32_t length = chunk.u32();
@@ -35,7 +39,7 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
       at = size.needed;
       break;
     }
-    if (type != wanted) return fail("chunk", "the file's chunks are not JSON, BIN, LWST: it is a glTF, but not a pack");
+    if (type != wanted) return fail("", no_pack);
     at = size.needed + length;
   }
   size.opening_length = at;

@@ -34,7 +34,7 @@ bool is_stl(Bytes file) {
 std::optional<std::string> unsupported_format(Bytes file) {
   using namespace std::string_view_literals;
   constexpr std::pair<std::string_view, const char*> beginnings[] = {
-      {"DRACO"sv, "a bare Draco mesh; Draco is read inside glTF"},
+      {"DRACO"sv, "a bare Draco mesh; convert it to glTF, inside which Draco is read, to OBJ or to PLY"},
       {"\x76\x2f\x31\x01"sv, "an OpenEXR picture"},
       {"#?"sv, "a Radiance picture; --environment takes it"},
       {"Kaydara FBX Binary"sv, "an FBX file"},
@@ -51,7 +51,7 @@ std::optional<std::string> unsupported_format(Bytes file) {
     if (text.starts_with(beginning)) return name;
   }
   if (image_format(file)) return "a picture";
-  if (is_stl(file)) return "an STL file";
+  if (is_stl(file)) return "an STL file; convert it to PLY, OBJ or glTF";
   if (without_leading_space(text).starts_with('{') && text.find("\"asset\"") == text.npos)
     return "JSON that is no glTF";
   return std::nullopt;

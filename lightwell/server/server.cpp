@@ -205,7 +205,10 @@ class Server::Loop {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
     if (!error) port_ = acceptor_.local_endpoint(error).port();
-    if (error) return fail(options_.bind + ":" + std::to_string(options_.port), error.message());
+    if (error) {
+      const std::string hint = error == asio::error::address_in_use ? "; --port 0 takes a free one" : "";
+      return fail(options_.bind + ":" + std::to_string(options_.port), error.message() + hint);
+    }
     stop_event_.assign(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), error);
     if (error) return fail("server", error.message());
     std::signal(SIGPIPE, SIG_IGN);

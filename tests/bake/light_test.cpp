@@ -254,7 +254,8 @@ TEST(BakeLight, RefusesASceneThatIsDark) {
   const auto result = bake_light(*traced(scene), options(4, 100), silent, statistics);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().message(),
-            "lights: nothing shines: the scene has no emissive material, no lamp and no environment");
+            "nothing shines: the scene has no emissive material, no lamp and no environment; "
+            "--environment 1,1,1 lights it from all around");
 }
 
 TEST(BakeLight, StopsWhenAsked) {

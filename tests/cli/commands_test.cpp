@@ -51,7 +51,9 @@ TEST_F(Commands, ASceneWithoutLightIsAnError) {
   write("dark.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const Outcome outcome = run("bake " + path("dark.obj") + " -o " + path("dark.glb") + " --quiet");
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_NE(outcome.err.find("light"), std::string::npos);
+  EXPECT_EQ(outcome.err, "lightwell: " + path("dark.obj") +
+                             ": nothing shines: the scene has no emissive material, no lamp and no environment; "
+                             "--environment 1,1,1 lights it from all around\n");
   EXPECT_EQ(
       run("bake " + path("dark.obj") + " -o " + path("lit.glb") + " --environment 1,1,1 --photons 10k --grid 3 --quiet")
           .status,

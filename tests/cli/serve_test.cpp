@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "tests/cli/commands.h"
+#include "tests/server/running_server.h"
 
 namespace lightwell {
 namespace {
@@ -52,6 +53,16 @@ TEST_F(Serve, WarnsOfAFolderWithoutAPack) {
   fs::create_directories(path("full"));
   fs::copy(small_pack(), path("full/box.lw.glb"));
   EXPECT_EQ(started(path("full") + " " + path("empty")).err, warning);
+}
+
+TEST_F(Serve, SaysWhatToDoAboutAPortInUse) {
+  ServerOptions options;
+  options.packs = {folder()};
+  const RunningServer other(options);
+  const std::string port = std::to_string(other.port());
+  const Outcome refused = run("serve --port " + port + " " + folder().string());
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "lightwell: 127.0.0.1:" + port + ": Address already in use; --port 0 takes a free one\n");
 }
 
 TEST_F(Serve, ListensOnLocalhostByName) {

@@ -56,7 +56,7 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"diff a b --metric best", "is not rmse, relmse, deltae, lab or flip"},
            {"fetch a --latency inf", "--latency: inf"},
            {"fetch a --timeout nan", "--timeout: nan"},
-           {"fetch a --rate fast", "--rate: fast"},
+           {"fetch a --rate fast", "--rate: fast: is not a number of bits a second, such as 500k or 10M"},
            {"serve a --port 70000", "--port: 70000: is not a whole number from 0 to 65535"}}) {
     const Outcome outcome = run(bad.arguments);
     EXPECT_EQ(outcome.status, 2) << bad.arguments;
@@ -150,13 +150,13 @@ TEST_F(Commands, WhatIsNoPackIsCalledSo) {
   fs::create_directories(path("folder"));
   const std::string to_export = "export -o " + path("x.glb");
   for (const std::string& command : std::vector<std::string>{"info", "verify", "fetch", "serve --port 0", to_export}) {
-    for (const auto& [file, said] :
-         std::vector<std::pair<std::string, std::string>>{{"junk", "is no pack"},
-                                                          {"plain.glb", "not a pack"},
-                                                          {"folder", "is a folder"},
-                                                          {"empty", "empty"},
-                                                          {"cut.glb", command == "fetch" ? "should have" : "cut short"},
-                                                          {"missing", "o such file"}}) {
+    for (const auto& [file, said] : std::vector<std::pair<std::string, std::string>>{
+             {"junk", "is no pack"},
+             {"plain.glb", "is a glTF, but not a pack; `lightwell bake` makes one"},
+             {"folder", "is a folder"},
+             {"empty", "empty"},
+             {"cut.glb", command == "fetch" ? "should have" : "cut short"},
+             {"missing", "o such file"}}) {
       if (command == "serve --port 0" && file == "folder") continue;  // it serves folders
       const Outcome outcome = run(command + " " + path(file));
       EXPECT_EQ(outcome.status, 1) << command << " " << file;
@@ -166,6 +166,17 @@ TEST_F(Commands, WhatIsNoPackIsCalledSo) {
     }
   }
   EXPECT_FALSE(fs::exists(path("x.glb")));
+}
+
+TEST_F(Commands, ABuiltInSceneIsNoPack) {
+  for (const std::string& command : {std::string("info"), std::string("verify"), std::string("fetch"),
+                                     std::string("serve --port 0"), "export -o " + path("x.glb")}) {
+    const Outcome outcome = run(command + " furnace");
+    EXPECT_EQ(outcome.status, 1) << command;
+    EXPECT_EQ(
+        outcome.err,
+        "lightwell: furnace: is a built-in scene, not a pack; `lightwell bake furnace -o furnace.lw.glb` makes one\n");
+  }
 }
 
 // As a glTF it would be read at its coarsest level, without a word.
@@ -214,7 +225,7 @@ TEST_F(Commands, FiguresAreReadable) {
            R"(time: import \d+\.\d\d s, light \d+\.\d\d s, geometry \d+\.\d\d s, write \d+\.\d\d s)",
            "peak memory: " + size, "size of the pack: " + size,
            "size: opening " + size + ", geometry " + size + ", light " + size + ", texture 0 bytes",
-           R"(estimated error: \d+(\.\d+)? %)"})
+           R"(estimated error of the irradiance, root mean square: \d+(\.\d+)? %)"})
     EXPECT_TRUE(std::regex_search(baked.out, std::regex("(^|\n)" + line + "\n"))) << line << "\n" << baked.out;
   EXPECT_EQ(run("verify " + path("x.glb")).out.rfind("ok: yes\nblocks: ", 0), 0u);
   const std::string fetched = run("fetch " + path("x.glb")).out;
@@ -239,9 +250,10 @@ TEST_F(Commands, DiffSaysWhichPicturesItReads) {
 }
 
 TEST_F(Commands, FetchSaysHowAUrlBegins) {
-  for (const std::string url : {"localhost:8123/packs/x.glb", "127.0.0.1:80", "[::1]:8080/x.glb"})
+  for (const std::string url : {"localhost:8123/packs/x.glb", "127.0.0.1:80", "[::1]:8080/x.glb",
+                                "example.com/packs/x.glb", "my-host.example.com/x.glb", "ftp://example.com/x.glb"})
     EXPECT_EQ(run("fetch " + url).err, "lightwell: " + url + ": no such file; a URL begins with http://\n");
-  for (const std::string file : {"x.glb", "folder:/x.glb", "folder/x:1", "12:30 o'clock"}) {
+  for (const std::string file : {"x.glb", "folder:/x.glb", "folder/x:1", "12:30 o'clock", "../x.glb", "a/b.c/x.glb"}) {
     const Outcome outcome = run("fetch \"" + file + "\"");
     EXPECT_EQ(outcome.status, 1);
     EXPECT_EQ(outcome.err.find("http"), std::string::npos) << outcome.err;
@@ -254,9 +266,13 @@ TEST_F(Commands, FetchNamesAServerThatIsNotThereAndGivesUp) {
   EXPECT_EQ(outcome.err,
             "lightwell: warning: http://127.0.0.1:1/x.glb: Connection refused; trying again\n"
             "lightwell: http://127.0.0.1:1/x.glb: Connection refused; gave up after 1 s\n");
-  const Outcome secure = run("fetch https://127.0.0.1/x.glb");
-  EXPECT_EQ(secure.status, 1);
-  EXPECT_NE(secure.err.find("https is not spoken"), std::string::npos) << secure.err;
+  const Outcome large = run("fetch HTTP://127.0.0.1:1/x.glb --timeout 1");
+  EXPECT_NE(large.err.find("Connection refused; gave up after 1 s\n"), std::string::npos) << large.err;
+  for (const char* scheme : {"https", "HTTPS"}) {
+    const Outcome secure = run(std::string("fetch ") + scheme + "://127.0.0.1/x.glb");
+    EXPECT_EQ(secure.status, 1);
+    EXPECT_NE(secure.err.find("https is not spoken"), std::string::npos) << secure.err;
+  }
 }
 
 TEST_F(Commands, ASignalEndsAFetchInOneLine) {

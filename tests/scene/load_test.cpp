@@ -70,9 +70,9 @@ TEST(LoadScene, TurnsAndScales) {
 TEST(LoadScene, RefusesByName) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> refused = {
-      {"solid cube\nfacet normal 0 0 1\n", "STL"},
+      {"solid cube\nfacet normal 0 0 1\n", "an STL file; convert it to PLY, OBJ or glTF"},
       {std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "STL"},
-      {"DRACO\2\2", "Draco"},
+      {"DRACO\2\2", "convert it to glTF"},
       {"\x76\x2f\x31\x01", "OpenEXR"},
       {"#?RADIANCE\n", "Radiance"},
       {"{\"primitives\": []}", "JSON"},
