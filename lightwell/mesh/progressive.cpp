@@ -109,8 +109,8 @@ Result<ProgressiveMesh> build_progressive(const Mesh& mesh, const SimplifyOption
 }
 
 ProgressiveMesh refine_after(SimplifiedMesh simplified, size_t rounds) {
-  auto& [quantized, points, order] = simplified;
-  order.keep_rounds(rounds, points);
+  simplified.order.keep_rounds(rounds, simplified.points);
+  const auto& [quantized, points, order] = simplified;
 
   ProgressiveMesh out;
   std::vector<uint32_t> old_of;  // of each vertex in the new order
