@@ -48,7 +48,7 @@ std::vector<int> refined_primitives(const Scene& scene) {
   return refined;
 }
 
-// Counts the vertices of meshes that are worked on side by side.
+// Counts the vertices of meshes that are worked on side by side, each of them twice: simplified, then encoded.
 class SharedCount {
  public:
   SharedCount(Progress& progress, size_t total) : progress_(progress) {
@@ -56,7 +56,7 @@ class SharedCount {
   }
   void add(size_t vertices) {
     const std::lock_guard lock(mutex_);
-    progress_.advance(static_cast<double>(done_ += vertices));
+    progress_.advance(static_cast<double>(done_ += vertices) / 2);
   }
 
  private:
@@ -81,7 +81,7 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   const auto scale_of = [&](size_t i) { return scales[static_cast<size_t>(refined[i])]; };
   size_t total = 0;
   for (size_t i = 0; i < refined.size(); i++) total += mesh_of(i).positions.size();
-  SharedCount count(progress, 2 * total);  // each mesh is simplified, then encoded
+  SharedCount count(progress, total);
   Cancellation cancellation(progress);
 
   std::vector<std::optional<SimplifiedMesh>> simplified(refined.size());

@@ -105,15 +105,17 @@ class Client::Machine {
     if (!contained) give_up({FailureUpdate::Reason::unreadable, contained.error().message()});
   }
 
-  /// True while the answer that brings the opening still brings the first block of a light: the eight corners that the
-  /// opening itself holds may lie in the dark, and the first picture is to be lit.
+  /// True while the answer that brings the opening still brings the first block of a light, if that is not far behind:
+  /// the eight corners that the opening itself holds may lie in the dark, and the first picture is to be lit.
   bool opening_waits() const {
     if (opening_taken_) return false;
+    constexpr uint64_t not_far = 16384;
     const std::vector<StreamEntry>& streams = download_.directory().streams;
-    for (size_t i = 0; i < streams.size(); i++)
-      if (streams[i].kind == StreamKind::light && streams[i].blocks > 0 && !download_.ready(i) &&
-          download_.taken(i) == 0 && requests_.bring(download_.table(i).extent(0).end()))
-        return true;
+    for (size_t i = 0; i < streams.size(); i++) {
+      if (streams[i].kind != StreamKind::light || streams[i].blocks == 0 || download_.ready(i)) continue;
+      const uint64_t end = download_.table(i).extent(0).end();
+      if (end <= download_.table(0).begin() + not_far && requests_.opening_brings(end)) return true;
+    }
     return false;
   }
 
@@ -125,7 +127,7 @@ class Client::Machine {
     if (!refiner) return give_up({FailureUpdate::Reason::unreadable, refiner.error().message()});
     refiners_.push_back(std::move(*refiner));
     if (download_.directory().streams[stream].kind == StreamKind::light && download_.ready(stream)) decode(stream);
-    refiners_.back()->settle();
+    if (!failure_) refiners_.back()->settle();
   }
 
   /// Decodes a block of the next stream, in turns, that has one and takes one.

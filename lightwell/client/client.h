@@ -55,7 +55,7 @@ class Client {
   /// It got no response, or the connection broke.
   void fail(uint32_t id, double now);
 
-  /// Decodes at most one block, or fills a light grid: a few milliseconds for what `lightwell bake` writes. False when
+  /// Decodes at most one block and fills a light grid: a few milliseconds for what `lightwell bake` writes. False when
   /// there was nothing to do.
   bool work();
   /// The next piece to hand over, with at most about `budget` bytes (a light grid, texture or opening comes whole);

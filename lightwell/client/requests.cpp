@@ -175,9 +175,11 @@ void Requests::stop() {
   whole_.reset();
 }
 
-bool Requests::bring(uint64_t position) const {
-  return std::ranges::any_of(
-      open_, [&](const auto& open) { return open.second.cursor.position < position && position <= open.second.end; });
+bool Requests::opening_brings(uint64_t position) const {
+  return std::ranges::any_of(open_, [&](const auto& open) {
+    const Request& request = open.second;
+    return !request.run && request.cursor.position < position && position <= request.end;
+  });
 }
 
 /// A pause that has ended since the last next() counts: nobody has been asked since then.

@@ -35,8 +35,8 @@ class Requests {
   /// Why that happened, if it was not somebody else who called stop().
   const std::optional<FailureUpdate>& failure() const { return failure_; }
 
-  /// Whether an answer that is under way will bring the file's bytes up to `position`, or what is left of them.
-  bool bring(uint64_t position) const;
+  /// Whether the answer that brought the opening is under way still and will bring the file's bytes up to `position`.
+  bool opening_brings(uint64_t position) const;
 
   double wake() const;
   uint32_t sent() const { return next_id_ - 1; }

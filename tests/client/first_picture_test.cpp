@@ -28,6 +28,7 @@ class FirstAnswer {
   }
   void finish() {
     client_.finish(id_, 0);
+    client_.next(0);  // asks for the rest, for which the opening does not wait
     take_all();
   }
 

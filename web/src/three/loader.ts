@@ -79,7 +79,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
       const inbox = new Inbox(connection, signal, onProgress, this.#options.onConnection);
       const { glb } = await inbox.take((event) => event.type === 'opening');
       const opening = await readOpening(glb, this.manager);
-      // The first state of a light is made of the opening alone, so it is close behind. A picture without it would be black.
+      // The first state of a light comes with the opening, so it is close behind. A picture without it would be black.
       const lights: LightEvent[] = [];
       for (const { stream } of opening.extensions.LIGHTWELL_light_grids?.grids ?? []) {
         const light = await inbox.take((event): event is LightEvent => event.type === 'light' && event.stream === stream);
