@@ -182,7 +182,7 @@ class Client::Machine {
   std::vector<std::unique_ptr<Refiner>> refiners_;
   uint64_t budget_ = most_buffer_bytes;
   size_t decoding_ = 0;   ///< the stream whose turn it is to be decoded
-  size_t announced_ = 0;  // refiners that have said what they are
+  size_t announced_ = 0;  ///< refiners that have said what they are
   size_t turn_ = 0;       ///< the stream whose turn it is to hand over
   bool checked_ = false;
   bool opening_taken_ = false;

@@ -33,12 +33,12 @@ class MeshRefiner final : public Refiner {
     return decoder_.append(payload);
   }
 
-  /// A batch of all changes since the last one. Its order keeps every moment drawable: the new vertices, the new faces,
-  /// then old faces that may refer to the new vertices, and the draw count last.
   std::optional<Update> announce() override {
     return MeshUpdate{stream_, decoder_.layout().vertices, decoder_.layout().faces, attributes_};
   }
 
+  /// A batch of all changes since the last one. Its order keeps every moment drawable: the new vertices, the new faces,
+  /// then old faces that may refer to the new vertices, and the draw count last.
   std::optional<Update> take(size_t budget) override {
     if (changed_ && !batch_) start_batch();
     if (!batch_) return std::nullopt;
