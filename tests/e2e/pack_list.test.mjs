@@ -40,7 +40,7 @@ async function shown(page) {
 const ROOM = ['packs/0.lw.glb', 'a room · Lightwell', 'a room.lw.glb'];
 const LUCY = ['packs/1.lw.glb', 'lucy · Lightwell', 'lucy.lw.glb'];
 
-for (const [hash, expected] of [['', ROOM], ['#pack=a%20room', ROOM], ['#pack=lucy', LUCY], ['#pack=lucy.lw.glb', LUCY]])
+for (const [hash, expected] of [['', ROOM], ['#pack=', ROOM], ['#pack=a%20room', ROOM], ['#pack=lucy', LUCY], ['#pack=lucy.lw.glb', LUCY]])
   test(`an address that ends in '${hash}' shows ${expected[2]} and names it`, async (t) => {
     const { page } = await openHash(t, hash);
     assert.deepEqual(await shown(page), expected);

@@ -20,7 +20,7 @@ export function bindHash(element: LightwellView): Hash {
   element.on('camera-change', write);
   addEventListener('hashchange', () => location.reload());
   return {
-    wanted: parameters.get('pack'),
+    wanted: parameters.get('pack') || null,
     setPack(name) {
       pack = name;
       write(view);
