@@ -12,9 +12,10 @@ lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_
 lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
 lightwell_room(trace DEPENDS scene mesh texture base LIBRARIES embree)
 lightwell_room(render DEPENDS trace light scene texture base LIBRARIES tinyexr::tinyexr)
-lightwell_room(bake DEPENDS trace light mesh texture gltf scene pack base)
+lightwell_room(bake DEPENDS trace light gltf scene base)
+lightwell_room(packing DEPENDS pack light mesh texture gltf scene base)
 lightwell_room(client DEPENDS pack light mesh texture base)
 lightwell_room(transport DEPENDS client base LIBRARIES Boost::headers)
 lightwell_room(server DEPENDS pack base LIBRARIES Boost::headers)
-lightwell_room(cli DEPENDS base mesh texture gltf light pack scene trace bake render client transport server
+lightwell_room(cli DEPENDS base mesh texture gltf light pack scene trace bake packing render client transport server
                LIBRARIES CLI11::CLI11)

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "lightwell/bake/light_bake.h"
-#include "lightwell/bake/unpack.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/option_kinds.h"
+#include "lightwell/packing/unpack.h"
 #include "lightwell/scene/scene.h"
 
 namespace lightwell {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
-#include "lightwell/bake/pack_scene.h"
+#include "lightwell/bake/lamps.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/open_scene.h"
+#include "lightwell/packing/pack_scene.h"
 #include "lightwell/render/exposure.h"
 #include "lightwell/scene/camera.h"
 
@@ -22,6 +23,7 @@ struct Bake {
   Scene scene;
   std::unique_ptr<const TraceScene> traced;
   Camera camera;  // from which a viewer begins
+  LampPlan plan;
   LightGrid grid;
   PackLight light;
   std::vector<uint8_t> file;
@@ -40,8 +42,9 @@ Result<void> import_scene(const Options& options, Bake& bake) {
 }
 
 Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
-  bake.light.lamps = plan_lamps(*bake.traced);
-  const std::vector<uint8_t>& contained = bake.light.lamps.contained;
+  bake.plan = plan_lamps(*bake.traced);
+  const std::vector<uint8_t>& contained = bake.plan.contained;
+  bake.light.lamps = bake.plan.client;
   LW_TRY(grid, bake_light(*bake.traced, options.scene.light(contained), progress, bake.light_statistics));
   bake.grid = std::move(grid);
   bake.light.grid = &bake.grid;

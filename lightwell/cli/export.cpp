@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/unpack.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/pack_name.h"
+#include "lightwell/packing/unpack.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/write_ply.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/unpack.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/info_text.h"
 #include "lightwell/cli/pack_name.h"
 #include "lightwell/mesh/stream.h"
+#include "lightwell/packing/unpack.h"
 
 namespace lightwell {
 namespace {

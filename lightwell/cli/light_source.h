@@ -2,8 +2,8 @@
 #pragma once
 
 #include "lightwell/bake/light_bake.h"
-#include "lightwell/bake/unpack.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/packing/unpack.h"
 
 namespace lightwell {
 

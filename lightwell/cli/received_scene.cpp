@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lightwell/bake/unpack.h"
+#include "lightwell/packing/unpack.h"
 #include "lightwell/texture/image_format.h"
 
 namespace lightwell {

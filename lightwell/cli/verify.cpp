@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/verify.h"
+#include "lightwell/packing/verify.h"
 
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/pack_name.h"

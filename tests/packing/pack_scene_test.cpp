@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/pack_scene.h"
+#include "lightwell/packing/pack_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <numeric>
 #include <tuple>
 
-#include "lightwell/bake/opening_budget.h"
-#include "lightwell/bake/unpack.h"
-#include "lightwell/bake/verify.h"
 #include "lightwell/base/random.h"
 #include "lightwell/mesh/quantize.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/writer.h"
+#include "lightwell/packing/opening_budget.h"
+#include "lightwell/packing/unpack.h"
+#include "lightwell/packing/verify.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/texture/image_file.h"

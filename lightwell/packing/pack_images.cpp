@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/pack_images.h"
+#include "lightwell/packing/pack_images.h"
 
 #include <algorithm>
 #include <array>

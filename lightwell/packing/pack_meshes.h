@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/bake/pack_scene.h"
 #include "lightwell/mesh/stream.h"
+#include "lightwell/packing/pack_scene.h"
 
 namespace lightwell {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/verify.h"
+#include "lightwell/packing/verify.h"
 
 #include <functional>
 #include <memory>
 
-#include "lightwell/bake/unpack.h"
-#include "lightwell/bake/verify_json.h"
 #include "lightwell/light/stream.h"
+#include "lightwell/packing/unpack.h"
+#include "lightwell/packing/verify_json.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/pack_json.h"
+#include "lightwell/packing/pack_json.h"
 
 #include <algorithm>
 
@@ -111,7 +111,7 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   json["extensions"]["LIGHTWELL_light_grids"]["grids"] = Json::array({grid_json(light)});
   use_extension(json, "LIGHTWELL_light_grids");
   Json& lamps = json["extensions"]["LIGHTWELL_lamps"]["lamps"] = Json::array();
-  for (const ClientLamp& lamp : light.lamps.client) lamps.push_back(lamp_json(lamp));
+  for (const ClientLamp& lamp : light.lamps) lamps.push_back(lamp_json(lamp));
   use_extension(json, "LIGHTWELL_lamps");
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/pack_scene.h"
+#include "lightwell/packing/pack_scene.h"
 
 #include <set>
 
-#include "lightwell/bake/pack_json.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/self_contained.h"
+#include "lightwell/packing/pack_json.h"
 
 namespace lightwell {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/pack_meshes.h"
+#include "lightwell/packing/pack_meshes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <optional>
 
-#include "lightwell/bake/opening_budget.h"
 #include "lightwell/base/parallel.h"
 #include "lightwell/mesh/progressive.h"
+#include "lightwell/packing/opening_budget.h"
 
 namespace lightwell {
 namespace {

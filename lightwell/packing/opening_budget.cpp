@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/opening_budget.h"
+#include "lightwell/packing/opening_budget.h"
 
 #include <algorithm>
 #include <queue>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/bake/lamps.h"
 #include "lightwell/base/progress.h"
+#include "lightwell/light/client_lamp.h"
 #include "lightwell/light/grid.h"
 #include "lightwell/scene/scene.h"
 
@@ -16,7 +16,7 @@ struct PackOptions {
 /// The light of a scene as a pack states it.
 struct PackLight {
   const LightGrid* grid = nullptr;
-  LampPlan lamps;
+  std::vector<ClientLamp> lamps;  ///< of the client, the strongest first
   bool contains_environment = false;
   bool contains_lamps = false;  ///< the direct light of some lamp
   float estimated_error = 0;    ///< of the grid, share of its root mean square

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/bake/pack_images.h"
-#include "lightwell/bake/pack_meshes.h"
 #include "lightwell/pack/writer.h"
+#include "lightwell/packing/pack_images.h"
+#include "lightwell/packing/pack_meshes.h"
 
 namespace lightwell {
 

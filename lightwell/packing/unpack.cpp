@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/unpack.h"
+#include "lightwell/packing/unpack.h"
 
 #include <array>
 

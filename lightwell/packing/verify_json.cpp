@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/bake/verify_json.h"
+#include "lightwell/packing/verify_json.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "lightwell/bake/unpack.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
+#include "lightwell/packing/unpack.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {
