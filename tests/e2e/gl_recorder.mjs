@@ -25,3 +25,13 @@ export const RECORD_GL = `{
   const next = () => { record.frames.push(0); requestAnimationFrame(next); };
   requestAnimationFrame(next);
 }`;
+
+/** Runs in a page before its scripts: `objects` counts by its kind what the GPU holds. */
+export const COUNT_OBJECTS = `globalThis.objects = {};
+for (const kind of ['Buffer', 'Texture', 'VertexArray']) {
+  const prototype = WebGL2RenderingContext.prototype;
+  const { ['create' + kind]: create, ['delete' + kind]: remove } = prototype;
+  objects[kind] = 0;
+  prototype['create' + kind] = function () { objects[kind]++; return create.call(this); };
+  prototype['delete' + kind] = function (object) { if (object) objects[kind]--; remove.call(this, object); };
+}`;

@@ -5,11 +5,13 @@ import assert from 'node:assert/strict';
 import { createServer } from 'node:http';
 import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { COUNT_OBJECTS } from './gl_recorder.mjs';
 import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
+import { startSlowRelay } from './slow_relay.mjs';
 import { startStaticServer } from './static_server.mjs';
 import { viewerPage } from './test_page.mjs';
-import { complete, notice } from './view.mjs';
+import { complete, loaded, notice, progress } from './view.mjs';
 
 const folder = temporaryFolder();
 const SMALL = writeSamplePack(`${folder}/small.lw.glb`, 5_000);
@@ -23,21 +25,20 @@ globalThis.Worker = class extends Worker {
   terminate() { workers.alive--; super.terminate(); }
 };`;
 
-/** Runs in the page before its scripts: `objects` counts by its kind what the GPU holds. */
-const COUNT_OBJECTS = `globalThis.objects = {};
-for (const kind of ['Buffer', 'Texture', 'VertexArray']) {
-  const prototype = WebGL2RenderingContext.prototype;
-  const { ['create' + kind]: create, ['delete' + kind]: remove } = prototype;
-  objects[kind] = 0;
-  prototype['create' + kind] = function () { objects[kind]++; return create.call(this); };
-  prototype['delete' + kind] = function (object) { if (object) objects[kind]--; remove.call(this, object); };
-}`;
-
 /** Runs in the page before its scripts: `listeners` counts those that wait for signals to abort. */
 const COUNT_LISTENERS = `globalThis.listeners = 0;
 const { addEventListener: add, removeEventListener: remove } = AbortSignal.prototype;
 AbortSignal.prototype.addEventListener = function (...values) { listeners++; add.apply(this, values); };
 AbortSignal.prototype.removeEventListener = function (...values) { listeners--; remove.apply(this, values); };`;
+
+/** Runs in the page before its scripts: moves the element out of sight. */
+const OUT_OF_SIGHT = `addEventListener('DOMContentLoaded', () =>
+  (document.querySelector('lightwell-view').style.transform = 'translateY(5000px)'));`;
+
+/** Bytes a second: most of the pack is still to come when its opening is shown. */
+const SLOW = 100_000;
+/** Much longer than any pause between two pieces of a pack that is on its way; milliseconds. */
+const REST = 1000;
 
 /** Runs in the page before its scripts: `failures` collects the element's errors, with the time. */
 const NOTE_FAILURES = `globalThis.failures = [];
@@ -92,6 +93,23 @@ test('a pack that another one follows leaves nothing on the GPU and no listener'
   await complete(page);
   assert.deepEqual(await objects(), first);
   assert.equal(await page.evaluate(() => globalThis.listeners), 0);
+  assert.deepEqual(errors, []);
+});
+
+test('of a pack that loads out of sight the rest comes when it is seen', async (t) => {
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/pack.lw.glb'), '/pack.lw.glb': LARGE }));
+  const relay = await forTest(t, startSlowRelay(server.url, SLOW));
+  const { page, errors } = await forTest(t, openPage(browser, { init: OUT_OF_SIGHT }));
+  await page.goto(relay.url);
+  await loaded(page);
+  let [before, now] = [undefined, await progress(page)];
+  while (before?.bytes.done !== now.bytes.done) {
+    await page.waitForTimeout(REST);
+    [before, now] = [now, await progress(page)];
+  }
+  assert.ok(now.bytes.done < now.bytes.total, 'all of it came unseen');
+  await page.evaluate(() => (document.querySelector('lightwell-view').style.transform = ''));
+  await complete(page);
   assert.deepEqual(errors, []);
 });
 

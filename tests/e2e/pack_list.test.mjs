@@ -56,6 +56,32 @@ test('a pack that the server does not have is said, and another one can be chose
   assert.deepEqual(errors, []);
 });
 
+/** The page's view, with as many digits as its address has. */
+const view = (page) =>
+  page.evaluate(() => {
+    const { theta, phi, radius, target } = document.querySelector('lightwell-view').view;
+    return [theta, phi, radius, ...target].map((number) => Number(number.toFixed(4)));
+  });
+
+const VIEW = [0.5, 1.25, 2.5, 0.1, 0.2, 0.3];
+
+test('the view of an address is shown', async (t) => {
+  const { page } = await openHash(t, `#pack=lucy&view=${VIEW}`);
+  assert.deepEqual(await shown(page), LUCY);
+  assert.deepEqual(await view(page), VIEW);
+});
+
+test('the view of a pack that the server does not have is not given to another one', async (t) => {
+  const { page } = await openHash(t, `#pack=gone&view=${VIEW}`);
+  await notice(page, 'no pack .gone');
+  await page.selectOption('#packs', 'lucy');
+  assert.deepEqual(await shown(page), LUCY);
+  const own = await view(page);
+  const { page: plain } = await openHash(t, '#pack=lucy');
+  await loaded(plain);
+  assert.deepEqual(own, await view(plain));
+});
+
 test('an address that is changed by hand is shown', async (t) => {
   const { page } = await openHash(t, '#pack=lucy');
   await loaded(page);

@@ -162,18 +162,23 @@ export class WasmClient {
 
   /** Where the next call's bytes go: a new view each time, since the module's memory may have grown. */
   #input(length: number): Uint8Array {
-    const pointer = this.#wasm.lw_input(length);
-    return new Uint8Array(this.#wasm.memory.buffer, pointer, length);
+    const address = addressOf(this.#wasm.lw_input(length));
+    return new Uint8Array(this.#wasm.memory.buffer, address, length);
   }
 
   #record(words: number): Uint32Array {
-    const pointer = this.#wasm.lw_record();
-    return new Uint32Array(this.#wasm.memory.buffer, pointer, words);
+    const address = addressOf(this.#wasm.lw_record());
+    return new Uint32Array(this.#wasm.memory.buffer, address, words);
   }
 
-  #copy(pointer: number, length: number): ArrayBuffer {
-    return this.#wasm.memory.buffer.slice(pointer, pointer + length) as ArrayBuffer;
+  #copy(address: number, length: number): ArrayBuffer {
+    return this.#wasm.memory.buffer.slice(address, address + length) as ArrayBuffer;
   }
+}
+
+/** A place in the memory: WebAssembly hands 32-bit numbers over as signed ones, which are negative from 2 GiB on. */
+function addressOf(pointer: number): number {
+  return pointer >>> 0;
 }
 
 function attributeLayout(word: number): AttributeLayout {

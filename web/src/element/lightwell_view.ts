@@ -139,12 +139,12 @@ export class LightwellView extends HTMLElement {
   /** Asks for no more bytes until `resume`. */
   pause(): void {
     this.#paused = true;
-    this.#pack?.pause();
+    this.#pauseOrResume();
   }
 
   resume(): void {
     this.#paused = false;
-    this.#pack?.resume();
+    this.#pauseOrResume();
   }
 
   /** The present picture. */
@@ -248,7 +248,7 @@ export class LightwellView extends HTMLElement {
     pack.addEventListener('failure', ({ reason, message }) => this.#onFailure(reason, message));
     pack.addEventListener('complete', () => stage.finish(() => pack === this.#pack && this.#onComplete()));
     stage.scene.add(pack);
-    if (this.#paused) pack.pause();
+    this.#pauseOrResume();
     for (const name of ['field-of-view', 'exposure', 'light', 'wireframe']) this.#apply(name);
     this.#frame(pack);
     stage.invalidateShadows();
@@ -338,8 +338,13 @@ export class LightwellView extends HTMLElement {
     this.#near = near;
     this.#stage?.setRunning(near);
     if (near && this.#loader === null && this.getAttribute('loading') === 'lazy') this.#open();
-    if (!near) this.#pack?.pause();
-    else if (!this.#paused) this.#pack?.resume();
+    this.#pauseOrResume();
+  }
+
+  /** What nobody is about to see is not asked for. */
+  #pauseOrResume(): void {
+    if (this.#paused || !this.#near) this.#pack?.pause();
+    else this.#pack?.resume();
   }
 
   #onFrame(): void {

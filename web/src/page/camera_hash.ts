@@ -6,25 +6,26 @@ import type { View } from '../element/orbit.js';
 export interface Hash {
   /** The pack that it named at first. */
   readonly wanted: string | null;
-  /** Names the pack that is shown from now on: the first one with the view that the URL named, others with their own. */
-  setPack(name: string): void;
+  /** The view that it named at first, of that pack. */
+  readonly view: View | null;
+  /** Names the pack that is shown from now on, in the given view or else in its own. */
+  setPack(name: string, view: View | null): void;
 }
 
 /** Keeps pack and camera in the URL, so that a link shows what the sender saw. A URL that the user changes is loaded. */
 export function bindHash(element: LightwellView): Hash {
   const parameters = new URLSearchParams(location.hash.slice(1));
   let pack = '';
-  let view = parseView(parameters.get('view'));
-  if (view !== null) element.view = view;
   const write = (camera: View | null) => history.replaceState(null, '', fragment(pack, camera));
   element.on('camera-change', write);
   addEventListener('hashchange', () => location.reload());
   return {
     wanted: parameters.get('pack') || null,
-    setPack(name) {
+    view: parseView(parameters.get('view')),
+    setPack(name, view) {
       pack = name;
+      if (view !== null) element.view = view;
       write(view);
-      view = null;
     },
   };
 }

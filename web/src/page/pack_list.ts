@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { LightwellView } from '../element/lightwell_view.js';
+import type { View } from '../element/orbit.js';
 import type { Hash } from './camera_hash.js';
 
 /** A line of /packs.json. */
@@ -17,20 +18,20 @@ export async function bindPacks(view: LightwellView, hash: Hash): Promise<void> 
   const packs = await listPacks();
   const title = document.querySelector<HTMLElement>('#title')!;
   const select = document.querySelector<HTMLSelectElement>('#packs')!;
-  const show = () => {
+  const show = (camera: View | null) => {
     const { name, url } = packs[select.selectedIndex]!;
     title.textContent = displayName(name);
     document.title = `${displayName(name)} · Lightwell`;
-    hash.setPack(name);
+    hash.setPack(name, camera);
     view.setAttribute('src', url);
   };
   select.replaceChildren(...packs.map(({ name }) => new Option(displayName(name))));
-  select.addEventListener('change', show);
+  select.addEventListener('change', () => show(null));
   select.selectedIndex = packs.findIndex(({ name }) => wanted === null || [name, displayName(name)].includes(wanted));
   select.hidden = packs.length < 2;
   title.hidden = !select.hidden;
   if (select.selectedIndex < 0) throw new Error(`This server has no pack${wanted === null ? 's' : ` “${wanted}”`}.`);
-  show();
+  show(hash.view);
 }
 
 async function listPacks(): Promise<Pack[]> {

@@ -8,8 +8,9 @@ export function meshesIn(root: Object3D): Mesh[] {
   return meshes;
 }
 
-export function materialsOf({ material }: Mesh): Material[] {
-  return [material].flat();
+/** None of what has none. */
+export function materialsOf({ material }: Partial<Mesh>): Material[] {
+  return [material ?? []].flat();
 }
 
 /** The textures that a material has, one for each use. */

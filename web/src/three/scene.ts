@@ -24,6 +24,7 @@ import {
   type UpdateEvent,
   payload,
 } from '../core/protocol.js';
+import { disposeAll } from './dispose.js';
 import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
@@ -164,7 +165,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     for (const lamp of this.lamps) lamp.dispose();
-    for (const material of meshesIn(this.opening.gltf.scene).flatMap(materialsOf)) material.dispose();
+    disposeAll(this.opening.gltf.scene);
   }
 
   /** What was on its way to a GPU that lost everything goes there again. */
