@@ -18,7 +18,7 @@ constexpr uint64_t photons = 100'000;
 /// The room, and the rays that its photons' flights are.
 struct Room {
   Scene scene;
-  std::unique_ptr<const TraceScene> trace;
+  std::unique_ptr<const World> world;
   std::vector<Ray> rays;
 };
 
@@ -29,12 +29,12 @@ const Room* room() {
     auto scene = load_scene(LIGHTWELL_SHARED "/data/rooms/dragon-room.glb", {}, report);
     if (!scene) return std::unique_ptr<Room>();
     result->scene = std::move(*scene);
-    auto trace = TraceScene::build(result->scene);
-    if (!trace) return std::unique_ptr<Room>();
-    result->trace = std::move(*trace);
+    auto world = World::build(result->scene);
+    if (!world) return std::unique_ptr<Room>();
+    result->world = std::move(*world);
     Flight flight;
     for (uint64_t i = 0; i < photons; i++) {
-      for (PhotonWalk walk(*result->trace, 1, i); walk.next(flight);) {
+      for (PhotonWalk walk(*result->world, 1, i); walk.next(flight);) {
         result->rays.push_back({flight.origin, flight.direction});
       }
     }
@@ -43,11 +43,11 @@ const Room* room() {
   return loaded.get();
 }
 
-float walk_photons(const TraceScene& trace) {
+float walk_photons(const World& world) {
   float sum = 0;
   Flight flight;
   for (uint64_t i = 0; i < photons; i++) {
-    for (PhotonWalk walk(trace, 1, i); walk.next(flight);) sum += flight.length;
+    for (PhotonWalk walk(world, 1, i); walk.next(flight);) sum += flight.length;
   }
   return sum;
 }
@@ -89,8 +89,8 @@ void photons_against_embree(benchmark::State& state) {
   };
   double ours = 0, alone = 0;
   for (auto _ : state) {
-    ours += seconds([] { return walk_photons(*room()->trace); });
-    alone += seconds([] { return intersect_alone(*room()->trace, room()->rays); });
+    ours += seconds([] { return walk_photons(*room()->world); });
+    alone += seconds([] { return intersect_alone(room()->world->surfaces(), room()->rays); });
   }
   const double rays = static_cast<double>(room()->rays.size()) * static_cast<double>(state.iterations());
   state.counters["ratio"] = alone / ours;

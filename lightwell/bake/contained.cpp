@@ -24,12 +24,12 @@ Place place_of(const Json& lamp) {
 
 Place place_of(const Luminaire& luminaire, const Scene& scene) {
   const auto index = static_cast<size_t>(luminaire.index);
-  switch (luminaire.kind) {
-    case Luminaire::Kind::lamp: return {luminaire.kind, scene.lamps[index].node, scene.lamps[index].position};
-    case Luminaire::Kind::surface: return {luminaire.kind, scene.instances[index].node, luminaire.center};
+  switch (luminaire.kind()) {
+    case Luminaire::Kind::lamp: return {luminaire.kind(), scene.lamps[index].node, scene.lamps[index].position};
+    case Luminaire::Kind::surface: return {luminaire.kind(), scene.instances[index].node, luminaire.center};
     case Luminaire::Kind::environment: break;
   }
-  return {luminaire.kind};
+  return {luminaire.kind()};
 }
 
 }  // namespace
@@ -41,22 +41,24 @@ bool contains_environment(const Json& pack) {
   return false;
 }
 
-std::vector<uint8_t> contained_luminaires(const Json& pack, const TraceScene& scene) {
+LuminaireSet contained_luminaires(const Json& pack, const World& world) {
   std::vector<Place> places;
-  std::vector<uint8_t> contained;
-  for (const Luminaire& luminaire : scene.lights().luminaires()) {
-    places.push_back(place_of(luminaire, scene.scene()));
-    contained.push_back(luminaire.kind != Luminaire::Kind::environment || contains_environment(pack));
+  LuminaireSet contained;
+  for (const Luminaire& luminaire : world.lights().luminaires()) {
+    if (luminaire.kind() != Luminaire::Kind::environment || contains_environment(pack))
+      contained.insert(static_cast<int>(places.size()));
+    places.push_back(place_of(luminaire, world.scene()));
   }
   for (const Json& lamp : member(extension(pack, "LIGHTWELL_lamps"), "lamps")) {
     const Place place = place_of(lamp);
     std::optional<size_t> nearest;
     for (size_t i = 0; i < places.size(); i++) {
-      if (!contained[i] || places[i].kind != place.kind || places[i].node != place.node) continue;
+      if (!contained.contains(static_cast<int>(i)) || places[i].kind != place.kind || places[i].node != place.node)
+        continue;
       const auto distance = [&](size_t j) { return length(places[j].center - place.center); };
       if (!nearest || distance(i) < distance(*nearest)) nearest = i;
     }
-    if (nearest) contained[*nearest] = 0;
+    if (nearest) contained.erase(static_cast<int>(*nearest));
   }
   return contained;
 }

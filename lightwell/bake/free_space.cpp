@@ -1,55 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/free_space.h"
 
-#include "lightwell/bake/tracks.h"
 #include "lightwell/base/parallel.h"
-#include "lightwell/trace/sampling.h"
+#include "lightwell/trace/photons.h"
 
 namespace lightwell {
 namespace {
 
-/// What decides whether a point is in free space.
-struct Space {
-  const TraceScene& scene;
-  const Solids& solids;
-  bool closed;
+/// A scene from which a smaller share of the flights escapes is closed.
+constexpr double closed_escapes = 1e-3;
+/// Photons after which it is looked whether they tell enough. So many tell whether a scene is closed.
+constexpr uint64_t batch = 1 << 16;
 
-  bool is_seen_from(const Vec3f& point, Random& random) const {
-    Hit hit;
-    if (!scene.intersect({point, sample_sphere(random)}, random, hit)) return !closed;
-    return !solids.from_inside(hit);
+/// What one thread has seen.
+struct Sightings {
+  Solids::Hits hits;
+  uint64_t flights = 0;
+  uint64_t escaped = 0;
+
+  void watch(const World& world, const Solids& solids, uint64_t seed, uint64_t photon) {
+    Flight flight;
+    for (PhotonWalk walk(world, seed, photon); walk.next(flight);) {
+      flights++;
+      escaped += !std::isfinite(flight.length);
+      if (walk.end()) solids.count(*walk.end(), hits);
+    }
+  }
+
+  Sightings& operator+=(const Sightings& other) {
+    hits += other.hits;
+    flights += other.flights;
+    escaped += other.escaped;
+    return *this;
   }
 };
 
-/// The share of side^3 points, one in each part of the box.
-float free_share(const Space& space, const Box3f& box, int side, Random& random) {
-  int seen = 0;
-  for (int i = 0; i < side * side * side; i++) {
-    const Vec3f part = Vec3i{{i % side, i / side % side, i / side / side}}.cast<float>();
-    const Vec3f jitter{{random.uniform(), random.uniform(), random.uniform()}};
-    const Vec3f point = box.lo + box.size() * ((part + jitter) / static_cast<float>(side));
-    seen += space.is_seen_from(point, random);
-  }
-  return static_cast<float>(seen) / static_cast<float>(side * side * side);
-}
-
 }  // namespace
 
-std::vector<float> free_shares(const TraceScene& scene, const Solids& solids, const GridShape& shape, bool closed,
-                               uint64_t seed, int threads) {
-  const Space space{scene, solids, closed};
-  std::vector<float> shares(shape.count());
-  parallel_for(shares.size(), 256, threads, [&](size_t begin, size_t end, int) {
-    for (size_t node = begin; node < end; node++) {
-      Random random(seed, node);
-      const Box3f box = node_box(shape, node);
-      float share = free_share(space, box, 4, random);
-      // The light is divided by the share: the smaller it is, the more points it takes to be right by a few percent.
-      if (share > 0 && share < 1) share = free_share(space, box, share < 0.25f ? 16 : 10, random);
-      shares[node] = share;
-    }
-  });
-  return shares;
+Result<FreeSpace> FreeSpace::survey(const World& world, const SurveyOptions& options, Progress& progress) {
+  FreeSpace space(Solids(world.surfaces()));
+  const int threads = options.threads > 0 ? options.threads : default_threads();
+  std::vector<Sightings> seen(static_cast<size_t>(threads), Sightings{space.solids_.no_hits()});
+  Sightings sum{space.solids_.no_hits()};
+  for (uint64_t first = 0; first < options.most_photons && !(first > 0 && space.solids_.settled(sum.hits));
+       first += batch) {
+    const uint64_t count = std::min(batch, options.most_photons - first);
+    parallel_for(
+        count, 4096, threads,
+        [&](size_t begin, size_t end, int thread) {
+          for (size_t i = begin; i < end; i++)
+            seen[static_cast<size_t>(thread)].watch(world, space.solids_, options.seed, first + i);
+        },
+        [&] { return progress.cancelled(); });
+    if (progress.cancelled()) return fail("light", "cancelled");
+    sum = {space.solids_.no_hits()};
+    for (const Sightings& of_thread : seen) sum += of_thread;
+  }
+  // There is no flight at all when every photon began where its source is black.
+  space.closed_ =
+      sum.flights > 0 && static_cast<double>(sum.escaped) < closed_escapes * static_cast<double>(sum.flights);
+  space.solids_.decide(sum.hits);
+  return space;
 }
 
 }  // namespace lightwell

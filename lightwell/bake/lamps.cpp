@@ -53,14 +53,14 @@ bool is_flat(const Shape& shape) {
                      [&](const Vec3d& p) { return std::abs(dot(p - shape.center, normal)) <= flat; });
 }
 
-// Second moments of a surface's area about its centre, in the plane of two directions.
-struct Moments {
+// The second moments of a surface's area about its centre, in the plane of two directions.
+struct AreaMoments {
   double uu = 0, uv = 0, vv = 0;
 };
 
 // A triangle's are area / 12 (a a' + b b' + c c' + (a + b + c)(a + b + c)').
-Moments second_moments(const Shape& shape, const Vec3d& u, const Vec3d& v) {
-  Moments sum;
+AreaMoments second_moments(const Shape& shape, const Vec3d& u, const Vec3d& v) {
+  AreaMoments sum;
   for (size_t i = 0; i < shape.facets.size(); i++) {
     const double weight = length(shape.facets[i].normal) / 12;
     const Vec3d a = shape.points[3 * i] - shape.center;
@@ -160,7 +160,7 @@ ClientLamp describe_lamp(const Lamp& source) {
 }
 
 std::optional<ClientLamp> describe(const TraceScene& scene, const Luminaire& luminaire) {
-  switch (luminaire.kind) {
+  switch (luminaire.kind()) {
     case Luminaire::Kind::lamp: return describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)]);
     case Luminaire::Kind::surface: return describe_surface(scene, luminaire);
     case Luminaire::Kind::environment: break;
@@ -170,23 +170,22 @@ std::optional<ClientLamp> describe(const TraceScene& scene, const Luminaire& lum
 
 }  // namespace
 
-LampPlan plan_lamps(const TraceScene& scene, size_t most) {
-  const std::vector<Luminaire>& luminaires = scene.lights().luminaires();
+LampPlan plan_lamps(const World& world, size_t most) {
+  const std::vector<Luminaire>& luminaires = world.lights().luminaires();
   std::vector<size_t> by_power(luminaires.size());
   std::iota(by_power.begin(), by_power.end(), size_t(0));
   std::stable_sort(by_power.begin(), by_power.end(), [&](size_t a, size_t b) {
     return mean_of_channels(luminaires[a].power) > mean_of_channels(luminaires[b].power);
   });
-  LampPlan plan;
-  plan.contained.assign(luminaires.size(), 1);
+  LampPlan plan{{}, LuminaireSet::all(luminaires.size())};
   for (const size_t i : by_power) {
     const float power = mean_of_channels(luminaires[i].power);
     if (plan.client.size() == most || !(power > 0)) break;
-    auto lamp = describe(scene, luminaires[i]);
+    auto lamp = describe(world.surfaces(), luminaires[i]);
     if (!lamp) continue;
     lamp->power = power;
     plan.client.push_back(std::move(*lamp));
-    plan.contained[i] = 0;
+    plan.contained.erase(static_cast<int>(i));
   }
   return plan;
 }

@@ -11,6 +11,8 @@ namespace {
 constexpr double least_volume = 1e-3;
 /// Fewer photons say nothing of one in a thousand.
 constexpr uint64_t least_hits = 1000;
+/// More tell a share of one in a thousand from one of two in a thousand, by four standard deviations.
+constexpr uint64_t enough_hits = 16 * least_hits;
 
 /// What the faces of a piece add up to.
 struct Extent {
@@ -86,6 +88,12 @@ std::optional<size_t> Solids::piece(const Hit& hit) const {
 
 void Solids::count(const Hit& hit, Hits& hits) const {
   if (const auto index = piece(hit)) (hit.front ? hits.front : hits.back)[*index]++;
+}
+
+bool Solids::settled(const Hits& hits) const {
+  for (size_t i = 0; i < encloses_.size(); i++)
+    if (encloses_[i] && hits.front[i] + hits.back[i] < enough_hits) return false;
+  return true;
 }
 
 void Solids::decide(const Hits& hits) {

@@ -25,6 +25,8 @@ class Solids {
   };
   Hits no_hits() const;
   void count(const Hit& hit, Hits& hits) const;
+  /// True when so many hits are enough to decide by.
+  bool settled(const Hits& hits) const;
   /// Decides by all hits which pieces are solid. Before, none is.
   void decide(const Hits& hits);
 

@@ -3,7 +3,6 @@
 
 #include "lightwell/bake/tracks.h"
 #include "lightwell/light/stream.h"
-#include "lightwell/trace/lights.h"
 
 namespace lightwell {
 namespace {
@@ -62,12 +61,12 @@ size_t missed(const std::vector<Wall>& walls, float cell) {
 
 }  // namespace
 
-GridShape grid_of_walls(const TraceScene& scene, int longest) {
-  const Box3f& region = scene.lights().region();
+GridShape grid_of_walls(const World& world, int longest) {
+  const Box3f& region = world.lights().region();
   GridShape shape = GridShape::over(region, longest);
   const Vec3f size = shape.hi() - shape.lo;
   for (int axis = 0; axis < 3; axis++) {
-    const std::vector<Wall> walls = walls_across(scene, region, axis, shape.cell[axis]);
+    const std::vector<Wall> walls = walls_across(world.surfaces(), region, axis, shape.cell[axis]);
     const auto missed_by = [&](int nodes) { return missed(walls, size[axis] / static_cast<float>(nodes - 1)); };
     const int fewest = shape.nodes[axis];
     const size_t in_a_layer = shape.count() / static_cast<size_t>(fewest);
@@ -82,14 +81,14 @@ GridShape grid_of_walls(const TraceScene& scene, int longest) {
   return shape;
 }
 
-bool is_in_thin_wall(const TraceScene& scene, const Solids& solids, const GridShape& shape, size_t node) {
+bool is_in_thin_wall(const TraceScene& scene, const FreeSpace& space, const GridShape& shape, size_t node) {
   const Vec3f position = node_box(shape, node).center();  // within the scene, as a node at its face is not
   Random random(0, node);
   const auto meets_back = [&](int axis, float way) {
     Ray ray{.origin = position, .far = shape.cell[axis] / 2};
     ray.direction[axis] = way;
     Hit hit;
-    return scene.intersect(ray, random, hit) && solids.from_inside(hit);
+    return scene.intersect(ray, random, hit) && space.from_inside(hit);
   };
   for (int axis = 0; axis < 3; axis++)
     if (meets_back(axis, 1) && meets_back(axis, -1)) return true;

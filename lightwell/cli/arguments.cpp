@@ -46,6 +46,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   add_count(command, "--photons", options.photons, "Photons to trace into the grid: 5000, 200k, 8M, 1G",
             "a count, such as 5000, 200k, 8M or 1G")
       ->default_str("8M");
+  add_row_choice(command, "--method", options.method, estimators());
   add_environment_option(command, options.environment);
   add_choice<char>(command, "--up", options.import.up, {{"y", 'y'}, {"z", 'z'}}, "The file's axis that points up");
   add_number(command, "--unit", options.import.unit, unit_range, "Length of the file's unit in metres")

@@ -18,16 +18,17 @@ struct SceneOptions {
   ImportOptions import;
   int nodes = 32;  ///< on the light grid's longest axis
   uint64_t photons = 8'000'000;
+  const EstimatorKind* method = &estimators().front();
   int threads = 0;  ///< 0: all processors
 
-  /// How its light grid is baked; `contained` as in LightBakeOptions.
-  LightBakeOptions light(std::vector<uint8_t> contained) const {
-    return {nodes, photons, import.seed, threads, std::move(contained)};
+  /// How its light grid is baked; `contained` as in EstimatorOptions.
+  LightBakeOptions light(const LuminaireSet& contained) const {
+    return {nodes, method, {photons, import.seed, contained}, threads};
   }
 };
 
-/// Adds the scene and --grid, --photons, --environment, --up, --unit, --seed and --threads. `help` says what the scene
-/// may be.
+/// Adds the scene and --grid, --photons, --method, --environment, --up, --unit, --seed and --threads. `help` says what
+/// the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 
 /// --level: the share of a pack's faces. --fill: what stands in for the nodes of its light grid that are not there.

@@ -21,10 +21,10 @@ struct Options {
 // Everything that a bake makes, in the order in which it is made.
 struct Bake {
   Scene scene;
-  std::unique_ptr<const TraceScene> traced;
+  std::unique_ptr<const World> world;
   Camera camera;  // from which a viewer begins
   LampPlan plan;
-  LightGrid grid;
+  LightField field;
   PackLight light;
   std::vector<uint8_t> file;
   LightBakeStatistics light_statistics;
@@ -36,29 +36,30 @@ struct Bake {
 Result<void> import_scene(const Options& options, Bake& bake) {
   LW_TRY(scene, open_scene(options.scene, bake.report));
   bake.scene = std::move(scene);
-  LW_TRY(traced, TraceScene::build(bake.scene));
-  bake.traced = std::move(traced);
+  LW_TRY(world, World::build(bake.scene, options.scene.threads));
+  bake.world = std::move(world);
   return {};
 }
 
 Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
-  bake.plan = plan_lamps(*bake.traced);
-  const std::vector<uint8_t>& contained = bake.plan.contained;
+  const World& world = *bake.world;
+  bake.plan = plan_lamps(world);
+  const LuminaireSet& contained = bake.plan.contained;
+  LW_TRY(grid, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
   bake.light.lamps = bake.plan.client;
-  LW_TRY(grid, bake_light(*bake.traced, options.scene.light(contained), progress, bake.light_statistics));
-  bake.grid = std::move(grid);
-  bake.light.grid = &bake.grid;
   bake.light.seed = options.scene.import.seed;
   bake.light.estimated_error = bake.light_statistics.estimated_error;
-  const std::vector<Luminaire>& luminaires = bake.traced->lights().luminaires();
+  const std::vector<Luminaire>& luminaires = world.lights().luminaires();
   for (size_t i = 0; i < luminaires.size(); i++) {
-    if (!contained[i]) continue;
-    (luminaires[i].kind == Luminaire::Kind::environment ? bake.light.contains_environment : bake.light.contains_lamps) =
-        true;
+    if (!contained.contains(static_cast<int>(i))) continue;
+    (luminaires[i].kind() == Luminaire::Kind::environment ? bake.light.contains_environment
+                                                          : bake.light.contains_lamps) = true;
   }
-  LW_TRY(camera, choose_camera(*bake.traced, ""));
+  LW_TRY(camera, choose_camera(world.surfaces(), ""));
   bake.camera = camera;
-  bake.light.exposure = choose_exposure(*bake.traced, camera, bake.grid, contained);
+  bake.field = LightField({{std::move(grid), {}, 0}});
+  bake.light.grid = &bake.field.layers().front().grid;
+  bake.light.exposure = choose_exposure(world, camera, bake.field, contained, options.scene.threads);
   return {};
 }
 
@@ -70,7 +71,7 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   bake.import_seconds = watch.lap();
   LW_CHECK(bake_grid(options, progress, bake));
   bake.light_seconds = watch.lap();
-  bake.traced.reset();
+  bake.world.reset();
   if (bake.scene.cameras.empty())
     add_camera(bake.scene.document, bake.camera, 1e-3f * length(bake.scene.bounds().size()));
   LW_TRY(file, make_pack(bake.scene, bake.light, options.pack, progress, bake.report, bake.pack_statistics));
@@ -81,11 +82,11 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   return {};
 }
 
-nlohmann::ordered_json figures(const Bake& bake) {
+nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
   return {{"triangles", bake.pack_statistics.triangles},
           {"vertices", bake.pack_statistics.vertices},
-          {"nodes", bake.grid.shape.count()},
-          {"photons", bake.light_statistics.photons},
+          {"nodes", bake.field.layers().front().grid.shape.count()},
+          {"photons", options.scene.photons},
           {"rays", bake.light_statistics.rays},
           {"seconds",
            {{"import", bake.import_seconds},
@@ -109,7 +110,7 @@ int bake_scene(const Options& options, const Console& console) {
   const auto outcome = with_progress(console, [&](Progress& progress) { return run(options, progress, bake); });
   if (!console.json) console.warn(bake.report);
   if (!outcome) return console.fail(in_file(outcome.error(), options.scene.path));
-  nlohmann::ordered_json result = figures(bake);
+  nlohmann::ordered_json result = figures(options, bake);
   if (!console.json) result.erase("warnings");
   if (options.output != "-") console.print(result);
   return 0;

@@ -6,15 +6,15 @@
 
 namespace lightwell {
 
-Result<std::vector<uint8_t>> contained_in_grid(const std::string& path, const TraceScene& scene, bool environment) {
+Result<LuminaireSet> contained_in_grid(const std::string& path, const World& world, bool environment) {
   if (is_pack_file(path)) {
     LW_TRY(pack, PackReader::open_file(path));
     LW_TRY(json, pack_json(pack));
-    return contained_luminaires(json, scene);
+    return contained_luminaires(json, world);
   }
-  std::vector<uint8_t> contained;
-  for (const Luminaire& luminaire : scene.lights().luminaires())
-    contained.push_back(luminaire.kind == Luminaire::Kind::environment && environment);
+  LuminaireSet contained;
+  if (environment && world.lights().environment_luminaire() >= 0)
+    contained.insert(world.lights().environment_luminaire());
   return contained;
 }
 
@@ -27,11 +27,12 @@ Result<void> check_environment(const std::string& path, const Scene& scene) {
       {path, "", "its light was baked without an environment: bake the scene with one, or leave --environment out"});
 }
 
-Result<LightGrid> light_of(const SceneOptions& options, const TraceScene& scene, const std::vector<uint8_t>& contained,
-                           Progress& progress, const LightLevel& level) {
+Result<LightField> light_of(const SceneOptions& options, const World& world, const LuminaireSet& contained,
+                            Progress& progress, const LightLevel& level) {
   if (is_pack_file(options.path)) return open_light(options.path, level);
   LightBakeStatistics statistics;
-  return bake_light(scene, options.light(contained), progress, statistics);
+  LW_TRY(grid, bake_light(world, options.light(contained), progress, statistics));
+  return LightField({{std::move(grid), {}, 0}});
 }
 
 }  // namespace lightwell

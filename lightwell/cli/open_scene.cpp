@@ -59,9 +59,9 @@ Result<Scene> open_scene(const SceneOptions& options, Report& report, const Mesh
   return scene;
 }
 
-Result<Camera> choose_camera(const TraceScene& traced, const std::string& choice) {
-  const Scene& scene = traced.scene();
-  if (choice.empty()) return scene.cameras.empty() ? overview_camera(traced) : scene.cameras.front();
+Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice) {
+  const Scene& scene = surfaces.scene();
+  if (choice.empty()) return scene.cameras.empty() ? overview_camera(surfaces) : scene.cameras.front();
   for (const Camera& camera : scene.cameras)
     if (camera.name == choice) return camera;
   const auto number = parse_count(choice);
@@ -69,14 +69,15 @@ Result<Camera> choose_camera(const TraceScene& traced, const std::string& choice
   return fail("camera " + choice, "is not in the scene, which has " + std::to_string(scene.cameras.size()));
 }
 
-Result<LightGrid> open_light(const std::string& path, const LightLevel& level) {
-  auto grid = [&]() -> Result<LightGrid> {
+Result<LightField> open_light(const std::string& path, const LightLevel& level) {
+  auto field = [&]() -> Result<LightField> {
     LW_TRY(pack, PackReader::open_file(path));
     LW_TRY(stream, find_light_stream(pack));
-    return unpack_light(pack, stream, level);
+    LW_TRY(grid, unpack_light(pack, stream, level));
+    return LightField({{std::move(grid), {}, 0}});
   }();
-  if (!grid) return fail(in_file(grid.error(), path));
-  return grid;
+  if (!field) return fail(in_file(field.error(), path));
+  return field;
 }
 
 }  // namespace lightwell

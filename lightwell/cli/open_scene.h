@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lightwell/cli/arguments.h"
+#include "lightwell/light/light_field.h"
 #include "lightwell/trace/trace_scene.h"
 
 namespace lightwell {
@@ -10,9 +11,9 @@ namespace lightwell {
 Result<Scene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level = {});
 
 /// The camera of a scene by its name or number; an empty choice is the first one, or an overview where there is none.
-Result<Camera> choose_camera(const TraceScene& traced, const std::string& choice);
+Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice);
 
-/// The light grid of a pack at a level.
-Result<LightGrid> open_light(const std::string& path, const LightLevel& level);
+/// The baked light of a pack at a level.
+Result<LightField> open_light(const std::string& path, const LightLevel& level);
 
 }  // namespace lightwell

@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -87,6 +88,22 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
     return fail(text, "is not " + one_of(names));
   };
   return add_text(command, name, kind, take, help)->default_str(standard);
+}
+
+/// Adds an option whose value is a row of a table of the program's parts (estimators, integrators), by its name; the
+/// help names each with its own words. `offered` says which rows are.
+template <typename Row>
+CLI::Option* add_row_choice(
+    CLI::App& command, const std::string& name, const Row*& value, std::span<const Row> table,
+    bool (*offered)(const Row&) = [](const Row&) { return true; }) {
+  std::vector<std::pair<std::string, const Row*>> choices;
+  std::string help;
+  for (const Row& row : table) {
+    if (!offered(row)) continue;
+    choices.emplace_back(row.name, &row);
+    help += (help.empty() ? "" : "; ") + std::string(row.name) + ": " + row.help;
+  }
+  return add_choice<const Row*>(command, name, value, choices, help);
 }
 
 /// Adds -o, the file that the command writes; its name has to end in one of `endings`, the first of which is also what

@@ -16,23 +16,23 @@ struct Options {
 Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ProbePoint>& points, Progress& progress,
                                     Report& report) {
   LW_TRY(scene, open_scene(options.scene, report));
-  LW_TRY(traced, TraceScene::build(scene));
+  LW_TRY(world, World::build(scene, options.scene.threads));
   ProbeOptions probe_options = options.probe;
-  probe_options.environment = !options.without_environment;
   probe_options.seed = options.scene.import.seed;
   probe_options.threads = options.scene.threads;
-  LightGrid grid;
-  std::vector<uint8_t> contained;
-  if (probe_options.integrator == Integrator::ivg) {
+  IntegratorOptions& light = probe_options.light;
+  if (options.without_environment && world->lights().environment_luminaire() >= 0)
+    light.left_out.insert(world->lights().environment_luminaire());
+  LightField field;
+  if (probe_options.integrator->needs_field) {
     LW_CHECK(check_environment(options.scene.path, scene));
-    LW_TRY(held, contained_in_grid(options.scene.path, *traced, !options.without_environment));
-    contained = std::move(held);
-    LW_TRY(found, light_of(options.scene, *traced, contained, progress));
-    grid = std::move(found);
-    probe_options.grid = &grid;
-    probe_options.contained = contained;
+    LW_TRY(held, contained_in_grid(options.scene.path, *world, !options.without_environment));
+    light.held = held;
+    LW_TRY(found, light_of(options.scene, *world, held, progress));
+    field = std::move(found);
+    light.field = &field;
   }
-  return probe(*traced, points, probe_options, progress);
+  return probe(*world, points, probe_options, progress);
 }
 
 nlohmann::ordered_json figures(const std::vector<ProbeValue>& values) {
@@ -64,16 +64,15 @@ CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& c
   command->add_option("--points", options->points, "CSV with the columns x,y,z,nx,ny,nz")
       ->required()
       ->type_name("FILE");
-  add_choice<Integrator>(*command, "--integrator", options->probe.integrator,
-                         {{"path", Integrator::path}, {"ivg", Integrator::ivg}},
-                         "path: path tracing; ivg: the light grid (an irradiance vector grid)");
-  add_choice<LightPart>(*command, "--quantity", options->probe.quantity,
+  add_row_choice<IntegratorKind>(*command, "--integrator", options->probe.integrator, integrators(),
+                                 [](const IntegratorKind& row) { return row.finds_indirect; });
+  add_choice<LightPart>(*command, "--quantity", options->probe.light.part,
                         {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                         "Which light is measured");
   command->add_flag("--without-environment", options->without_environment,
                     "Leave out light straight from the environment");
   add_whole(*command, "--spp", options->probe.samples, {1, 100000000}, "Paths a point");
-  add_whole(*command, "--max-depth", options->probe.max_bounces, {0, 1024},
+  add_whole(*command, "--max-depth", options->probe.light.max_bounces, {0, 1024},
             "Bounces between source and point; 0 is direct light only");
   add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer("Example:\n  lightwell probe room.glb --points points.csv --integrator ivg > irradiance.csv");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lightwell/render/render.h"
+
 #include "lightwell/base/file.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
-#include "lightwell/render/integrator.h"
 
 namespace lightwell {
 namespace {
@@ -40,39 +41,44 @@ void set_size(const Options& options, const Camera& camera, RenderOptions& rende
   }
 }
 
+// Whether the picture is for the eye, so that an exposure matters.
+bool is_for_the_eye(const std::string& output) { return !output.ends_with(".exr") && !output.ends_with(".pfm"); }
+
 Result<Figures> run(const Options& options, Progress& progress, Report& report) {
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
   Figures figures;
   LW_TRY(scene, open_scene(options.scene, report, options.mesh_level));
-  LW_TRY(traced, TraceScene::build(scene));
-  LW_TRY(camera, choose_camera(*traced, options.camera));
+  LW_TRY(world, World::build(scene, options.scene.threads));
+  LW_TRY(camera, choose_camera(world->surfaces(), options.camera));
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);
-  if (render_options.integrator == Integrator::ivg) LW_CHECK(check_environment(options.scene.path, scene));
-  LW_TRY(contained, contained_in_grid(options.scene.path, *traced));
-  LightGrid grid;
+  const bool needs_field = render_options.integrator->needs_field;
+  if (needs_field) LW_CHECK(check_environment(options.scene.path, scene));
+  LW_TRY(held, contained_in_grid(options.scene.path, *world));
+  LightField field;
   Display display = options.display;
-  const bool is_shown = !options.output.ends_with(".exr") && !options.output.ends_with(".pfm");
-  const bool chosen_exposure = !options.exposure && is_shown;
-  if (render_options.integrator == Integrator::ivg || chosen_exposure) {
+  const bool chooses_exposure = !options.exposure && is_for_the_eye(options.output);
+  if (needs_field || chooses_exposure) {
     SceneOptions light = options.scene;
-    if (render_options.integrator != Integrator::ivg) light.photons = std::min(light.photons, exposure_photons);
-    LW_TRY(found, light_of(light, *traced, contained, progress, options.light_level));
-    grid = std::move(found);
-    render_options.grid = &grid;
-    render_options.contained = contained;
+    if (!needs_field) light.photons = std::min(light.photons, exposure_photons);
+    LW_TRY(found, light_of(light, *world, held, progress, options.light_level));
+    field = std::move(found);
+  }
+  if (needs_field) {
+    render_options.light.field = &field;
+    render_options.light.held = held;
   }
   if (options.exposure)
     display.exposure = *options.exposure;
-  else if (chosen_exposure)
-    display.exposure = choose_exposure(*traced, camera, grid, contained);
+  else if (chooses_exposure)
+    display.exposure = choose_exposure(*world, camera, field, held, options.scene.threads);
   figures.prepare_seconds = watch.lap();
 
   render_options.seed = options.scene.import.seed;
   render_options.threads = options.scene.threads;
-  LW_TRY(picture, render(*traced, camera, render_options, progress, figures.statistics));
+  LW_TRY(picture, render(*world, camera, render_options, progress, figures.statistics));
   LW_CHECK(write_picture(options.output, picture, display));
   return figures;
 }
@@ -98,14 +104,12 @@ Result<Vec<int, 2>> parse_size(const std::string& text) {
 }
 
 void add_integrator_options(CLI::App& command, RenderOptions& render) {
-  add_choice<Integrator>(command, "--integrator", render.integrator,
-                         {{"path", Integrator::path}, {"direct", Integrator::direct}, {"ivg", Integrator::ivg}},
-                         "path: path tracing; direct: no bounces; ivg: the light grid (an irradiance vector grid)");
-  add_choice<LightPart>(command, "--only", render.part,
+  add_row_choice(command, "--integrator", render.integrator, integrators());
+  add_choice<LightPart>(command, "--only", render.light.part,
                         {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                         "Which light is shown");
   add_whole(command, "--spp", render.samples, {1, 1000000}, "Samples a pixel");
-  add_whole(command, "--max-depth", render.max_bounces, {0, 1024},
+  add_whole(command, "--max-depth", render.light.max_bounces, {0, 1024},
             "Bounces between source and surface; 0 is direct light only");
 }
 

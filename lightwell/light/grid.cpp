@@ -40,11 +40,11 @@ Vec3f Moments::irradiance(const Vec3f& n) const {
   return max(sum * 0.5f, Vec3f{});
 }
 
-Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& normal) const {
+Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const {
   Vec3i first;
   Vec3f fraction;
   for (int a = 0; a < 3; a++) {
-    const float at = (point[a] - shape.lo[a]) / shape.cell[a] + normal_offset * normal[a];
+    const float at = (point[a] - shape.lo[a]) / shape.cell[a] + normal_offset * offset_normal[a];
     const float inside = at > 0 ? std::min(at, static_cast<float>(shape.nodes[a] - 1)) : 0.0f;
     first[a] = std::min(static_cast<int>(inside), shape.nodes[a] - 2);
     fraction[a] = inside - static_cast<float>(first[a]);
@@ -64,7 +64,7 @@ Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& normal) const {
     sum += moments[node] * weight;
     total += weight;
   }
-  return (sum * (1 / total)).irradiance(normal);
+  return (sum * (1 / total)).irradiance(direction);
 }
 
 namespace {

@@ -63,9 +63,13 @@ struct LightGrid {
   std::vector<uint8_t> valid;    ///< 1 where a node stands in free space, 0 inside a solid
   float normal_offset = 0.5f;    ///< a lookup is moved by this many cells along the normal, docs/light.md section 5
 
-  /// Irradiance (W/m2, RGB) at a point for a unit normal: trilinear among the eight nodes round point + normal_offset *
-  /// cell * normal, valid ones at full weight and invalid ones at 2^-13. Points outside are clamped to the grid.
-  Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const;
+  /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`: trilinear
+  /// among the eight nodes round point + normal_offset * cell * offset_normal, valid ones at full weight and invalid
+  /// ones at 2^-13. The direction is the surface's normal, or for its reflection the mirrored one. Points outside are
+  /// clamped to the grid.
+  Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
+  /// The irradiance of the surface itself.
+  Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const { return irradiance(point, normal, normal); }
 };
 
 /// The weight of a node in lookups and averages: 1 when it is valid, 2^-13 when it is not. Small enough that a solid's

@@ -26,11 +26,11 @@ struct Readings {
 /// Rec. 709 luminance.
 float luminance(const Vec3f& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
-Readings read_meter(const TraceScene& scene, const Camera& camera, const LightGrid& grid,
-                    std::span<const uint8_t> contained) {
-  const PathOptions straight{.max_bounces = 0, .apart = contained};
+Readings read_meter(const World& world, const Camera& camera, const LightField& field, const LuminaireSet& held,
+                    int threads) {
+  const TraceScene& surfaces = world.surfaces();
   std::vector<Vec2f> pixels(size_t(width) * height);
-  parallel_for(pixels.size(), width, 0, [&](size_t begin, size_t end, int) {
+  parallel_for(pixels.size(), width, threads, [&](size_t begin, size_t end, int) {
     for (size_t pixel = begin; pixel < end; pixel++) {
       Random random(1, pixel);
       const size_t column = pixel % width, row = pixel / width;
@@ -38,12 +38,13 @@ Readings read_meter(const TraceScene& scene, const Camera& camera, const LightGr
         const float x = (static_cast<float>(column) + random.uniform()) / width;
         const float y = (static_cast<float>(row) + random.uniform()) / height;
         Hit hit;
-        if (!scene.intersect(camera_ray(camera, float(width) / height, x, y), random, hit)) continue;
+        if (!surfaces.intersect(camera_ray(camera, float(width) / height, x, y), random, hit)) continue;
         const Receiver receiver = Receiver::irradiance(hit.position, hit.facing_normal());
-        const Vec3f white = (trace_path(scene, receiver, straight, random).direct +
-                             grid.irradiance(hit.position, scene.shading_normal(hit))) /
-                            pi;
-        const Bsdf bsdf = scene.surface(hit).bsdf;
+        DirectAndIndirect light(held);
+        trace_path(world, receiver, 0, random, light);
+        const Vec3f normal = surfaces.shading_normal(hit);
+        const Vec3f white = (light.direct + field.irradiance(hit.position, normal, normal)) / pi;
+        const Bsdf bsdf = surfaces.surface(hit).bsdf;
         pixels[pixel] += Vec2f{{luminance(white), luminance(white * (bsdf.diffuse + bsdf.metal))}} / float(samples);
       }
     }
@@ -71,9 +72,9 @@ float percentile(std::vector<float> values, double share) {
 
 }  // namespace
 
-float choose_exposure(const TraceScene& scene, const Camera& camera, const LightGrid& grid,
-                      std::span<const uint8_t> contained) {
-  const Readings readings = read_meter(scene, camera, grid, contained);
+float choose_exposure(const World& world, const Camera& camera, const LightField& field, const LuminaireSet& held,
+                      int threads) {
+  const Readings readings = read_meter(world, camera, field, held, threads);
   if (readings.incident.empty()) return 0;
   float scale = white_surface / geometric_mean(readings.incident);
   const float bright = percentile(readings.reflected, 0.95);

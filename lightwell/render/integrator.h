@@ -1,52 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 
-#include "lightwell/base/progress.h"
-#include "lightwell/light/grid.h"
-#include "lightwell/render/picture.h"
+#include "lightwell/light/light_field.h"
+#include "lightwell/render/light_part.h"
 #include "lightwell/trace/paths.h"
 
 namespace lightwell {
 
-/// Where light comes from: all of it, straight from its source, or after at least one reflection. A picture's total
-/// also shows what shines by itself; its other parts do not.
-enum class LightPart { total, direct, indirect };
-
-/// How the light of a point is found.
-enum class Integrator {
-  path,    ///< path tracing, the reference
-  direct,  ///< path tracing of the direct light only
-  ivg,     ///< direct light by path tracing, the rest looked up in a light grid, as the viewer does
+/// What a receiver reflects towards who looks, in the parts that were asked for.
+struct ReflectedLight {
+  Vec3f radiance{};  ///< W/m2/sr
+  int rays = 0;      ///< that were traced for it
 };
 
-struct RenderOptions {
-  Integrator integrator = Integrator::path;
+/// A way to find the light that a receiver reflects: what chance decides, one sample at a time, and what needs none.
+/// Threads may share it.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// One sample; the mean of many is the light, but for what known() gives.
+  virtual ReflectedLight sample(const Receiver& receiver, Random& random) const = 0;
+  /// The part that is looked up.
+  virtual Vec3f known(const Receiver&) const { return {}; }
+  /// False when sample() has nothing to add.
+  virtual bool samples() const { return true; }
+};
+
+/// What an integrator is told.
+struct IntegratorOptions {
   LightPart part = LightPart::total;
-  int width = 640, height = 480;  ///< pixels
-  int samples = 64;               ///< a pixel
-  int max_bounces = 128;          ///< of `path`, between source and surface: 0 is direct light only
-  uint64_t seed = 1;
-  int threads = 0;  ///< 0: all processors
-  /// For `ivg`: the grid, and the luminaires whose direct light it contains (one flag each). In the grid's picture that
-  /// light counts as indirect.
-  const LightGrid* grid = nullptr;
-  std::span<const uint8_t> contained{};
+  int max_bounces = 128;  ///< between source and receiver, of one that traces all of the way: 0 is direct light only
+  /// The baked light, for one that looks it up, and the luminaires whose direct light it holds, which then counts as
+  /// indirect.
+  const LightField* field = nullptr;
+  LuminaireSet held{};
+  /// Luminaires whose direct light is left out. What they bounce stays.
+  LuminaireSet left_out{};
 };
 
-struct RenderStatistics {
-  double seconds = 0;
-  uint64_t rays = 0;
+/// A row of the table of integrators. A new one is a file and a row.
+struct IntegratorKind {
+  const char* name;
+  const char* help;     ///< a few words for the command line
+  bool finds_indirect;  ///< false: direct light alone
+  bool needs_field;     ///< looks up baked light
+  /// World and options outlive the integrator. The field is there where it is needed.
+  std::unique_ptr<Integrator> (*make)(const World& world, const IntegratorOptions& options);
 };
 
-/// The radiance that a surface reflects from a light grid towards who looks: the Lambertian part of the irradiance, and
-/// for metals the irradiance of the mirrored direction / pi, as the viewer has it.
-Vec3f reflected_from_grid(const LightGrid& grid, const Receiver& receiver);
-
-/// The picture that a camera takes, each pixel the mean over its square. The same bytes for any number of threads.
-/// Fails when `progress` asks to stop, when a size or the samples are not positive, or when `ivg` lacks its grid.
-Result<Picture> render(const TraceScene& scene, const Camera& camera, const RenderOptions& options, Progress& progress,
-                       RenderStatistics& statistics);
+/// All integrators; the first is the reference.
+std::span<const IntegratorKind> integrators();
+/// The integrator of a name, which must be in the table.
+const IntegratorKind& find_integrator(std::string_view name);
 
 }  // namespace lightwell

@@ -19,6 +19,7 @@ class Mean {
     count_++;
   }
   ProbeValue value() const {
+    if (count_ == 0) return {};
     const Vec3d mean = sum_ / count_;
     const Vec3d variance = squares_ / count_ - mean * mean;
     const double total = std::max(0.0, variance[0]) + std::max(0.0, variance[1]) + std::max(0.0, variance[2]);
@@ -30,56 +31,32 @@ class Mean {
   double count_ = 0;
 };
 
-/// Flags of the luminaires whose direct light the paths leave out: the grid's, and the environment when it is not
-/// wanted.
-std::vector<uint8_t> left_out(const TraceScene& scene, const ProbeOptions& options) {
-  std::vector<uint8_t> flags(scene.lights().luminaires().size(), 0);
-  for (size_t i = 0; i < flags.size(); i++) {
-    const bool in_grid = options.integrator == Integrator::ivg && i < options.contained.size() && options.contained[i];
-    const bool environment = scene.lights().luminaires()[i].kind == Luminaire::Kind::environment;
-    flags[i] = in_grid || (environment && !options.environment);
-  }
-  return flags;
-}
-
-ProbeValue probe_with_paths(const TraceScene& scene, const ProbePoint& point, const ProbeOptions& options,
-                            const PathOptions& path, Random random) {
+ProbeValue probe_point(const Integrator& integrator, const ProbePoint& point, int samples, Random random) {
   const Receiver receiver = Receiver::irradiance(point.position, point.normal);
   Mean mean;
-  for (int i = 0; i < options.samples; i++) {
-    const ReceivedLight light = trace_path(scene, receiver, path, random);
-    Vec3f sample{};
-    if (options.quantity != LightPart::indirect) sample += light.direct;
-    if (options.quantity != LightPart::direct) sample += light.indirect;
-    mean.add(sample);
-  }
-  return mean.value();
+  if (integrator.samples())
+    for (int i = 0; i < samples; i++) mean.add(integrator.sample(receiver, random).radiance);
+  ProbeValue value = mean.value();
+  value.irradiance += integrator.known(receiver);
+  return value;
 }
 
 }  // namespace
 
-Result<std::vector<ProbeValue>> probe(const TraceScene& scene, std::span<const ProbePoint> points,
+Result<std::vector<ProbeValue>> probe(const World& world, std::span<const ProbePoint> points,
                                       const ProbeOptions& options, Progress& progress) {
-  const bool ivg = options.integrator == Integrator::ivg;
-  LW_ASSERT(options.samples > 0 && options.integrator != Integrator::direct && (!ivg || options.grid));
-  const std::vector<uint8_t> apart = left_out(scene, options);
-  const PathOptions path{.max_bounces = ivg || options.quantity == LightPart::direct ? 0 : options.max_bounces,
-                         .apart = apart};
+  LW_ASSERT(options.samples > 0);
+  if (options.integrator->needs_field && !options.light.field)
+    return fail("probe", "there is no light grid to look up");
+  const std::unique_ptr<Integrator> integrator = options.integrator->make(world, options.light);
   std::vector<ProbeValue> values(points.size());
   std::atomic<size_t> done = 0;
   progress.stage("probe", static_cast<double>(points.size()), "points");
   parallel_for(
       points.size(), 1, options.threads,
       [&](size_t begin, size_t end, int) {
-        for (size_t i = begin; i < end; i++) {
-          ProbeValue& value = values[i];
-          if (!ivg || options.quantity != LightPart::indirect) {
-            value = probe_with_paths(scene, points[i], options, path, Random(options.seed, i));
-          }
-          if (ivg && options.quantity != LightPart::direct) {
-            value.irradiance += options.grid->irradiance(points[i].position, points[i].normal);
-          }
-        }
+        for (size_t i = begin; i < end; i++)
+          values[i] = probe_point(*integrator, points[i], options.samples, Random(options.seed, i));
         progress.advance(static_cast<double>(done += end - begin));
       },
       [&] { return progress.cancelled(); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lightwell/base/progress.h"
 #include "lightwell/render/integrator.h"
 
 namespace lightwell {
@@ -17,22 +18,16 @@ struct ProbeValue {
 };
 
 struct ProbeOptions {
-  Integrator integrator = Integrator::path;  ///< path or ivg
-  LightPart quantity = LightPart::indirect;
-  bool environment = true;  ///< false: the environment's direct light is left out, what it bounces stays
-  int samples = 1024;       ///< paths a point
-  int max_bounces = 128;
+  const IntegratorKind* integrator = &integrators().front();
+  IntegratorOptions light{.part = LightPart::indirect};
+  int samples = 1024;  ///< paths a point
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
-  /// For `ivg`: the grid, and the luminaires whose direct light it contains, which then counts as indirect. To leave
-  /// the environment out, the grid must have been baked without it.
-  const LightGrid* grid = nullptr;
-  std::span<const uint8_t> contained{};
 };
 
 /// The irradiance at points, in their order; the same bytes for any number of threads. Fails when `progress` asks to
-/// stop.
-Result<std::vector<ProbeValue>> probe(const TraceScene& scene, std::span<const ProbePoint> points,
+/// stop, or when an integrator lacks the baked light that it needs.
+Result<std::vector<ProbeValue>> probe(const World& world, std::span<const ProbePoint> points,
                                       const ProbeOptions& options, Progress& progress);
 
 }  // namespace lightwell

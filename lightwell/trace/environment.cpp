@@ -68,6 +68,20 @@ float EnvironmentLight::density(const Vec3f& direction) const {
   return pixels_.probability(index) / solid_angle(row, *map_);
 }
 
+Emission EnvironmentLight::emit(const LightRegion& region, Random& random) const {
+  const Sample chosen = sample(random);
+  return {.ray = region.beam_ray(-chosen.direction, random),
+          .flux = chosen.radiance * (region.beam_area() / chosen.density)};
+}
+
+Arrival EnvironmentLight::arrive(Random& random) const {
+  const Sample chosen = sample(random);
+  return {.direction = chosen.direction,
+          .distance = std::numeric_limits<float>::infinity(),
+          .radiance = chosen.radiance,
+          .density = chosen.density};
+}
+
 size_t EnvironmentLight::pixel(const Vec3f& d) const {
   const float u = 0.5f + std::atan2(d[0], -d[2]) / (2 * pi);
   const float v = std::acos(std::clamp(d[1], -1.0f, 1.0f)) / pi;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "lightwell/scene/scene.h"
+#include "lightwell/trace/light_region.h"
+#include "lightwell/trace/light_sample.h"
 #include "lightwell/trace/sampling.h"
 
 namespace lightwell {
@@ -27,6 +29,11 @@ class EnvironmentLight {
   Sample sample(Random& random) const;
   /// The density with which sample() chooses a direction, 1/sr.
   float density(const Vec3f& direction) const;
+
+  /// A photon that the environment sends into the region.
+  Emission emit(const LightRegion& region, Random& random) const;
+  /// Light from a sampled direction.
+  Arrival arrive(Random& random) const;
 
  private:
   size_t pixel(const Vec3f& direction) const;

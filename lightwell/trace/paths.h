@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-
-#include "lightwell/trace/lights.h"
+#include "lightwell/trace/world.h"
 
 namespace lightwell {
 
@@ -19,23 +17,52 @@ struct Receiver {
   static Receiver irradiance(const Vec3f& position, const Vec3f& normal);
 };
 
-struct PathOptions {
-  int max_bounces = 128;  ///< between the source and the receiver: 0 is direct light only
-  /// One flag a luminaire: its direct light is counted apart, as of those a light grid contains; empty: none.
-  std::span<const uint8_t> apart{};
+/// Takes what a receiver reflects towards who looks, in the portions that a path finds.
+class ReceivedLight {
+ public:
+  virtual ~ReceivedLight() = default;
+  /// Light of a luminaire (its number in Lights::luminaires()) that came by so many reflections before the receiver: 0
+  /// is straight from the source.
+  virtual void add(int luminaire, int bounces, const Vec3f& light) = 0;
 };
 
-/// What a receiver reflects towards who looks, by the way that the light came: straight from its source, straight from
-/// a source that is counted apart, or after at least one reflection.
-struct ReceivedLight {
-  Vec3f direct{};
-  Vec3f apart{};
-  Vec3f indirect{};
-  int rays = 0;  ///< that were traced for it
+/// Received light in two sums: straight from its source, and after at least one reflection. Light straight from the
+/// luminaires `left_out`, such as those whose light a grid holds, is in neither.
+class DirectAndIndirect : public ReceivedLight {
+ public:
+  explicit DirectAndIndirect(const LuminaireSet& left_out) : left_out_(left_out) {}
+  void add(int luminaire, int bounces, const Vec3f& light) override {
+    if (bounces > 0)
+      indirect += light;
+    else if (!left_out_.contains(luminaire))
+      direct += light;
+  }
+
+  Vec3f direct{}, indirect{};
+
+ private:
+  const LuminaireSet& left_out_;
 };
 
-/// One sample of it: a path traced from the receiver, at each vertex one sample of the lights and one of the surface,
-/// weighted by the power heuristic (Veach 1995). Unbiased up to max_bounces.
-ReceivedLight trace_path(const TraceScene& scene, const Receiver& receiver, const PathOptions& options, Random& random);
+/// Received light by the luminaire that it comes from.
+class LightByLuminaire : public ReceivedLight {
+ public:
+  struct Sums {
+    Vec3f direct{}, indirect{};
+  };
+
+  explicit LightByLuminaire(const Lights& lights) : sums(lights.luminaires().size()) {}
+  void add(int luminaire, int bounces, const Vec3f& light) override {
+    Sums& of_luminaire = sums[static_cast<size_t>(luminaire)];
+    (bounces > 0 ? of_luminaire.indirect : of_luminaire.direct) += light;
+  }
+
+  std::vector<Sums> sums;  ///< one a luminaire
+};
+
+/// Traces a path from the receiver, at each vertex one sample of the lights and one of the surface, weighted by the
+/// power heuristic (Veach and Guibas, Optimally Combining Sampling Techniques, SIGGRAPH 1995). Unbiased up to
+/// `max_bounces` between the source and the receiver; 0 is direct light only. Gives the number of rays that it took.
+int trace_path(const World& world, const Receiver& receiver, int max_bounces, Random& random, ReceivedLight& received);
 
 }  // namespace lightwell

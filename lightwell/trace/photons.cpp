@@ -9,12 +9,13 @@ constexpr int max_bounces = 1000;
 
 }  // namespace
 
-PhotonWalk::PhotonWalk(const TraceScene& scene, uint64_t seed, uint64_t index) : scene_(scene), random_(seed, index) {}
+PhotonWalk::PhotonWalk(const World& world, uint64_t seed, uint64_t index)
+    : surfaces_(world.surfaces()), lights_(world.lights()), random_(seed, index) {}
 
 bool PhotonWalk::next(Flight& flight) {
   float far = std::numeric_limits<float>::infinity();
   if (!started_) {
-    const Lights::Emission emission = scene_.lights().emit(random_);
+    const Emission emission = lights_.emit(random_);
     flight = {.origin = emission.ray.origin,
               .direction = emission.ray.direction,
               .flux = emission.flux,
@@ -24,7 +25,7 @@ bool PhotonWalk::next(Flight& flight) {
   } else if (!at_surface_ || !reflect(flight)) {
     return false;
   }
-  at_surface_ = scene_.intersect({flight.origin, flight.direction, far}, random_, hit_);
+  at_surface_ = surfaces_.intersect({flight.origin, flight.direction, far}, random_, hit_);
   flight.length = at_surface_ ? hit_.distance : far;
   return max_component(flight.flux) > 0;
 }
@@ -32,14 +33,14 @@ bool PhotonWalk::next(Flight& flight) {
 bool PhotonWalk::reflect(Flight& flight) {
   if (flight.bounces == max_bounces) return false;
   const Vec3f normal = hit_.facing_normal();
-  const Bsdf::Sample sample = scene_.surface(hit_).bsdf.sample(normal, -flight.direction, random_);
+  const Bsdf::Sample sample = surfaces_.surface(hit_).bsdf.sample(normal, -flight.direction, random_);
   const Vec3f reflected = flight.flux * sample.weight;
   const float survival = std::min(1.0f, max_component(reflected) / max_component(flight.flux));
   if (random_.uniform() >= survival) return false;
   flight.flux = reflected / survival;
-  flight.origin = scene_.leave(hit_.position, normal);
+  flight.origin = surfaces_.leave(hit_.position, normal);
   flight.direction = sample.in;
-  flight.from_back = !hit_.front && !scene_.material(hit_.instance).double_sided;
+  flight.from_back = !hit_.front && !surfaces_.material(hit_.instance).double_sided;
   flight.bounces++;
   return true;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/trace/lights.h"
+#include "lightwell/trace/world.h"
 
 namespace lightwell {
 
@@ -22,7 +22,7 @@ struct Flight {
 /// are traced.
 class PhotonWalk {
  public:
-  PhotonWalk(const TraceScene& scene, uint64_t seed, uint64_t index);
+  PhotonWalk(const World& world, uint64_t seed, uint64_t index);
   /// The next flight; false when the photon is absorbed or gone.
   bool next(Flight& flight);
   /// Where the last flight ended; null when it did not meet a surface.
@@ -31,7 +31,8 @@ class PhotonWalk {
  private:
   bool reflect(Flight& flight);
 
-  const TraceScene& scene_;
+  const TraceScene& surfaces_;
+  const Lights& lights_;
   Random random_;
   Hit hit_;
   bool at_surface_ = false;

@@ -5,7 +5,6 @@
 
 #include "lightwell/base/assert.h"
 #include "lightwell/scene/finish_mesh.h"
-#include "lightwell/trace/lights.h"
 
 namespace lightwell {
 namespace {
@@ -42,11 +41,9 @@ struct TraceScene::Context {
   explicit Context(uint64_t ray_salt) : salt(ray_salt) { rtcInitIntersectContext(&embree); }
 };
 
-Result<std::unique_ptr<const TraceScene>> TraceScene::build(const Scene& scene) {
+Result<std::unique_ptr<const TraceScene>> TraceScene::build(const Scene& scene, int threads) {
   std::unique_ptr<TraceScene> traced(new TraceScene(scene));
-  LW_CHECK(traced->commit());
-  traced->lights_ = std::make_unique<const Lights>(*traced);
-  if (!traced->lights_->finite()) return fail("lights", "they are too bright: their power is beyond a float");
+  LW_CHECK(traced->commit(threads));
   return traced;
 }
 
@@ -64,8 +61,8 @@ TraceScene::~TraceScene() {
   if (device_) rtcReleaseDevice(device_);
 }
 
-Result<void> TraceScene::commit() {
-  device_ = rtcNewDevice(nullptr);
+Result<void> TraceScene::commit(int threads) {
+  device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
   if (!device_) return fail("Embree", "cannot start");
   embree_ = rtcNewScene(device_);
   rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);

@@ -15,8 +15,6 @@ struct RTCFilterFunctionNArguments;
 
 namespace lightwell {
 
-class Lights;
-
 /// A half-line from `origin` along a unit direction, up to `far` metres.
 struct Ray {
   Vec3f origin{};
@@ -41,16 +39,16 @@ struct Hit {
 /// A scene made ready for tracing rays with Embree: everything but deforming primitives. Threads may share it.
 class TraceScene {
  public:
-  /// The scene must outlive the result and stay as it is. Fails when it has no triangle, when
-  /// positions or light leave the range of numbers that can be calculated with, or when memory runs out.
-  static Result<std::unique_ptr<const TraceScene>> build(const Scene& scene);
+  /// The scene must outlive the result and stay as it is. `threads` build Embree's tree, 0: all processors. Fails when
+  /// it has no triangle, when positions leave the range of numbers that can be calculated with, or when memory runs
+  /// out.
+  static Result<std::unique_ptr<const TraceScene>> build(const Scene& scene, int threads = 0);
   ~TraceScene();
   TraceScene(const TraceScene&) = delete;
   TraceScene& operator=(const TraceScene&) = delete;
 
   const Scene& scene() const { return scene_; }
-  const Lights& lights() const { return *lights_; }
-  /// Of what is traced.
+  /// The box of all that is traced.
   const Box3f& bounds() const { return bounds_; }
 
   /// The nearest surface. Where a surface lets part of the light pass (alpha, transmission), chance decides whether the
@@ -104,7 +102,7 @@ class TraceScene {
   struct Context;
 
   explicit TraceScene(const Scene& scene);
-  Result<void> commit();
+  Result<void> commit(int threads);
   Result<void> check_extent() const;
   void place(uint32_t instance);
   RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene);
@@ -124,7 +122,6 @@ class TraceScene {
   Box3f bounds_;
   float offset_ = 0;
   bool lets_light_pass_ = false;
-  std::unique_ptr<const Lights> lights_;
 };
 
 }  // namespace lightwell

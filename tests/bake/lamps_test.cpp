@@ -5,6 +5,8 @@
 
 #include <numbers>
 
+#include "tests/trace/luminaires.h"
+
 namespace lightwell {
 namespace {
 
@@ -63,9 +65,9 @@ void add(Scene& scene, Mesh mesh, const Material& material, const Transform& to_
 }
 
 LampPlan plan(const Scene& scene, size_t most = 16) {
-  auto traced = TraceScene::build(scene);
-  EXPECT_TRUE(traced);
-  return plan_lamps(**traced, most);
+  auto world = World::build(scene);
+  EXPECT_TRUE(world);
+  return plan_lamps(**world, most);
 }
 
 TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
@@ -91,7 +93,7 @@ TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
     EXPECT_NEAR(lamp.power, 7.0f / 3 * pi * 0.75f, 1e-3f);
     EXPECT_EQ(lamp.node, 3);
     EXPECT_EQ(lamp.primitive, 2);
-    EXPECT_EQ(lamps.contained, std::vector<uint8_t>{0});
+    EXPECT_EQ(lamps.contained, luminaires({0}));
   }
 }
 
@@ -126,7 +128,7 @@ TEST(PlanLamps, LeavesTubesAndDomesToTheGrid) {
   add(scene, dome, emitter({{1, 1, 1}}));
   const LampPlan lamps = plan(scene);
   EXPECT_TRUE(lamps.client.empty());
-  EXPECT_EQ(lamps.contained, (std::vector<uint8_t>{1, 1}));
+  EXPECT_EQ(lamps.contained, luminaires({1, 1}));
 }
 
 TEST(PlanLamps, TakesASphereAndLeavesAnInwardOneToTheGrid) {
@@ -137,7 +139,7 @@ TEST(PlanLamps, TakesASphereAndLeavesAnInwardOneToTheGrid) {
   ASSERT_EQ(lamps.client.size(), 1u);
   EXPECT_EQ(lamps.client[0].kind, ClientLamp::Kind::sphere);
   EXPECT_NEAR(lamps.client[0].radius, 0.5f, 0.005f);  // the polyhedron lies inside the sphere
-  EXPECT_EQ(lamps.contained, (std::vector<uint8_t>{0, 1}));
+  EXPECT_EQ(lamps.contained, luminaires({0, 1}));
 }
 
 TEST(PlanLamps, KeepsTheStrongest) {
@@ -152,7 +154,7 @@ TEST(PlanLamps, KeepsTheStrongest) {
   ASSERT_EQ(lamps.client.size(), 16u);
   EXPECT_EQ(lamps.client.front().intensity[0], 20);
   EXPECT_EQ(lamps.client.back().intensity[0], 5);
-  for (size_t i = 0; i < 20; i++) EXPECT_EQ(lamps.contained[i], i < 4);
+  for (int i = 0; i < 20; i++) EXPECT_EQ(lamps.contained.contains(i), i < 4);
 }
 
 // A sliver without area and a face below a black texel give no light: no lamp, though there is room for more.
@@ -178,7 +180,7 @@ TEST(PlanLamps, GivesTheEnvironmentToTheGrid) {
   scene.environment.radiance = Vec3f::filled(1);
   const LampPlan lamps = plan(scene);
   EXPECT_TRUE(lamps.client.empty());
-  EXPECT_EQ(lamps.contained, std::vector<uint8_t>{1});
+  EXPECT_EQ(lamps.contained, luminaires({1}));
 }
 
 }  // namespace

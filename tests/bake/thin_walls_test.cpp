@@ -20,10 +20,10 @@ Scene two_closed_rooms() {
 LightGrid baked(const Scene& scene, int nodes) {
   LightBakeOptions options;
   options.nodes = nodes;
-  options.photons = 100000;
+  options.estimator.photons = 100000;
   Progress silent;
   LightBakeStatistics statistics;
-  auto grid = bake_light(*traced(scene), options, silent, statistics);
+  auto grid = bake_light(*world_of(scene), options, silent, statistics);
   LW_ASSERT(grid.has_value());
   return std::move(*grid);
 }
@@ -31,8 +31,8 @@ LightGrid baked(const Scene& scene, int nodes) {
 // 16 nodes would stand at 27 cm before the wall and at 8 cm behind it.
 TEST(ThinWalls, GetANodeInside) {
   const Scene scene = two_closed_rooms();
-  const auto trace = traced(scene);
-  const GridShape shape = grid_of_walls(*trace, 16);
+  const auto world = world_of(scene);
+  const GridShape shape = grid_of_walls(*world, 16);
   EXPECT_GT(shape.nodes[0], 16);
   EXPECT_LE(shape.nodes[0], 18);
   bool inside = false;
@@ -42,7 +42,7 @@ TEST(ThinWalls, GetANodeInside) {
   }
   EXPECT_TRUE(inside);
   // The other axes have no walls, and the region is the same.
-  const GridShape plain = GridShape::over(trace->lights().region(), 16);
+  const GridShape plain = GridShape::over(world->lights().region(), 16);
   EXPECT_EQ(shape.nodes[1], plain.nodes[1]);
   EXPECT_EQ(shape.nodes[2], plain.nodes[2]);
   EXPECT_NEAR(length(shape.hi() - plain.hi()), 0, 1e-5f);
@@ -50,17 +50,17 @@ TEST(ThinWalls, GetANodeInside) {
 
 TEST(ThinWalls, LeaveOtherGridsAlone) {
   const Scene scene = scene_of(room({{-4, 0, 0}}, {{4.2f, 3, 4}}), lambertian(0.5f, 1));
-  const auto trace = traced(scene);
+  const auto world = world_of(scene);
   for (const int nodes : {2, 5, 16, 32})
-    EXPECT_EQ(grid_of_walls(*trace, nodes).nodes, GridShape::over(trace->lights().region(), nodes).nodes);
+    EXPECT_EQ(grid_of_walls(*world, nodes).nodes, GridShape::over(world->lights().region(), nodes).nodes);
 }
 
 // A pack holds 256 nodes an axis and 2^22 in all; what walls add stays within.
 TEST(ThinWalls, StayWithinWhatAPackHolds) {
   const Scene scene = two_closed_rooms();
-  const auto trace = traced(scene);
+  const auto world = world_of(scene);
   for (const int nodes : {200, 240, 256}) {
-    const GridShape plain = GridShape::over(trace->lights().region(), nodes), shape = grid_of_walls(*trace, nodes);
+    const GridShape plain = GridShape::over(world->lights().region(), nodes), shape = grid_of_walls(*world, nodes);
     for (int axis = 0; axis < 3; axis++) EXPECT_LE(shape.nodes[axis], 256);
     EXPECT_LE(shape.count(), std::max(plain.count(), LightLayout::most_nodes));
   }

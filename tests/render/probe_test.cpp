@@ -11,14 +11,14 @@ namespace {
 
 std::vector<ProbeValue> measure(const Scene& scene, std::vector<ProbePoint> points, ProbeOptions options) {
   Progress silent;
-  auto values = probe(*traced(scene), points, options, silent);
+  auto values = probe(*world_of(scene), points, options, silent);
   LW_ASSERT(values.has_value());
   return std::move(*values);
 }
 
 ProbeOptions paths(LightPart quantity, int samples) {
   ProbeOptions options;
-  options.quantity = quantity;
+  options.light.part = quantity;
   options.samples = samples;
   return options;
 }
@@ -66,7 +66,7 @@ TEST(Probe, AConstantSkyAboveAPlane) {
   const auto direct = measure(scene, points, paths(LightPart::direct, 4000));
   expect_irradiance(direct[1], pi);
   ProbeOptions without = paths(LightPart::direct, 100);
-  without.environment = false;
+  without.light.left_out = LuminaireSet::all(1);
   EXPECT_EQ(measure(scene, points, without)[0].irradiance, Vec3f{});
 }
 
@@ -88,10 +88,11 @@ TEST(Probe, ReadsTheGrid) {
   for (Moments& moments : grid.moments) moments.m[2] = {{1, 2, 3}};
   grid.valid.assign(8, 1);
   ProbeOptions options = paths(LightPart::indirect, 1);
-  options.integrator = Integrator::ivg;
-  options.grid = &grid;
+  const LightField field({{grid, {}, 0}});
+  options.integrator = &find_integrator("ivg");
+  options.light.field = &field;
   const auto values = measure(scene, {{{{0.5f, 0.5f, 0.5f}}, up}}, options);
-  EXPECT_EQ(values[0].irradiance, (Vec3f{{1, 2, 3}}));
+  for (int c = 0; c < 3; c++) EXPECT_FLOAT_EQ(values[0].irradiance[c], static_cast<float>(1 + c));
   EXPECT_EQ(values[0].standard_error, 0);
 }
 

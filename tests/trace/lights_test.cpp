@@ -14,8 +14,9 @@ Vec3f irradiance(const Lights& lights, const Vec3f& point, const Vec3f& normal, 
   Vec3d sum{};
   for (int i = 0; i < count; i++) {
     Random random(1, static_cast<uint64_t>(i));
-    const Lights::Arrival arrival = lights.sample(point, random);
-    sum += (arrival.radiance * std::max(0.0f, dot(normal, arrival.direction))).cast<double>();
+    const Arrival arrival = lights.sample(point, random);
+    if (arrival.density > 0)
+      sum += (arrival.radiance * (std::max(0.0f, dot(normal, arrival.direction)) / arrival.density)).cast<double>();
   }
   return (sum / count).cast<float>();
 }
@@ -26,28 +27,28 @@ const Vec3f up{{0, 1, 0}};
 
 TEST(Lights, OfASceneWithoutThemAreDark) {
   const Scene scene = floor_scene();
-  EXPECT_TRUE(traced(scene)->lights().dark());
+  EXPECT_TRUE(world_of(scene)->lights().dark());
 }
 
 TEST(Lights, APointLampFallsOffWithDistanceAndRange) {
   Scene scene = floor_scene();
   scene.lamps = {point_lamp({{0, 2, 0}}, {{8, 4, 2}})};
-  EXPECT_NEAR(irradiance(traced(scene)->lights(), {}, up, 1)[0], 2, 1e-5f);
+  EXPECT_NEAR(irradiance(world_of(scene)->lights(), {}, up, 1)[0], 2, 1e-5f);
   // KHR_lights_punctual: max(min(1 - (distance / range)^4, 1), 0) / distance^2.
   scene.lamps[0].range = 4;
-  EXPECT_NEAR(irradiance(traced(scene)->lights(), {}, up, 1)[1], 15.0f / 16, 1e-5f);
+  EXPECT_NEAR(irradiance(world_of(scene)->lights(), {}, up, 1)[1], 15.0f / 16, 1e-5f);
   scene.lamps[0].range = 1.5f;
-  EXPECT_EQ(irradiance(traced(scene)->lights(), {}, up, 1), Vec3f{});
+  EXPECT_EQ(irradiance(world_of(scene)->lights(), {}, up, 1), Vec3f{});
 }
 
 TEST(Lights, ASpotFadesBetweenItsCones) {
   Scene scene = floor_scene();
   scene.lamps = {spot_lamp({{0, 1, 0}}, 1, 0.2f, 0.6f)};
-  const auto trace = traced(scene);
+  const auto world = world_of(scene);
   const auto facing = [&](float angle) {
     const Vec3f point{{std::tan(angle), 0, 0}};
     const Vec3f way = scene.lamps[0].position - point;
-    return irradiance(trace->lights(), point, normalized(way), 1)[0] * dot(way, way);
+    return irradiance(world->lights(), point, normalized(way), 1)[0] * dot(way, way);
   };
   EXPECT_NEAR(facing(0.1f), 1, 1e-5f);
   EXPECT_EQ(facing(0.65f), 0);
@@ -58,7 +59,7 @@ TEST(Lights, ASpotFadesBetweenItsCones) {
 TEST(Lights, ASunIsTheIrradianceThatFacesIt) {
   Scene scene = floor_scene();
   scene.lamps = {sun_lamp({{0.6f, -0.8f, 0}}, 3)};
-  EXPECT_NEAR(irradiance(traced(scene)->lights(), {}, up, 1)[0], 2.4f, 1e-5f);
+  EXPECT_NEAR(irradiance(world_of(scene)->lights(), {}, up, 1)[0], 2.4f, 1e-5f);
 }
 
 // A disc or square of small size a at distance d on axis: pi L a^2 / d^2 in the limit; a 2 cm square at 1 m is within
@@ -66,18 +67,18 @@ TEST(Lights, ASunIsTheIrradianceThatFacesIt) {
 TEST(Lights, ASmallLampIsFoundOnAxisAndNotFromBehind) {
   Scene scene = floor_scene();
   add(scene, quad({{-0.01f, 1, -0.01f}}, {{0.02f, 0, 0}}, {{0, 0, 0.02f}}), lambertian(0, 1000));
-  const auto trace = traced(scene);
-  EXPECT_NEAR(irradiance(trace->lights(), {}, up, 1000)[0], 0.4f, 2e-4f);
-  EXPECT_EQ(irradiance(trace->lights(), {{0, 2, 0}}, -up, 100), Vec3f{});
+  const auto world = world_of(scene);
+  EXPECT_NEAR(irradiance(world->lights(), {}, up, 1000)[0], 0.4f, 2e-4f);
+  EXPECT_EQ(irradiance(world->lights(), {{0, 2, 0}}, -up, 100), Vec3f{});
   scene.materials.back().double_sided = true;
-  EXPECT_NEAR(irradiance(traced(scene)->lights(), {{0, 2, 0}}, -up, 1000)[0], 0.4f, 2e-4f);
+  EXPECT_NEAR(irradiance(world_of(scene)->lights(), {{0, 2, 0}}, -up, 1000)[0], 0.4f, 2e-4f);
 }
 
 // A constant sky gives pi L to an open plane; 20000 samples of a uniform sphere scatter by 1.3 / sqrt(20000) = 1 %.
 TEST(Lights, AConstantEnvironmentGivesPiTimesItsRadiance) {
   Scene scene = floor_scene();
   scene.environment.radiance = {{1, 2, 3}};
-  const Vec3f e = irradiance(traced(scene)->lights(), {}, up, 20000);
+  const Vec3f e = irradiance(world_of(scene)->lights(), {}, up, 20000);
   EXPECT_NEAR(e[0] / pi, 1, 0.03f);
   EXPECT_NEAR(e[2] / e[0], 3, 1e-4f);
 }
@@ -93,8 +94,8 @@ TEST(Lights, AnEnvironmentMapIsSampledByItsRadiance) {
   Scene scene = floor_scene();
   scene.environment.map = std::make_shared<const RadianceImage>(bright_spot());
   scene.environment.radiance = Vec3f::filled(1);
-  const auto trace = traced(scene);
-  const EnvironmentLight& environment = trace->lights().environment();
+  const auto world = world_of(scene);
+  const EnvironmentLight& environment = world->lights().environment();
   // The pixel (5, 2): azimuth u in [5, 6) / 16, polar angle in [2, 3) / 8 pi.
   const float u = 5.5f / 16, v = 2.5f / 8;
   const float angle = 2 * pi * (u - 0.5f);
@@ -122,13 +123,13 @@ TEST(Lights, AnEnvironmentOfBlackAndBrightPixelsIsFinite) {
     for (size_t c = 0; c < 3; c++) map.pixels[3 * pixel + c] = 1;
   scene.environment.map = std::make_shared<const RadianceImage>(std::move(map));
   scene.environment.radiance = Vec3f::filled(1);
-  const auto trace = traced(scene);
+  const auto world = world_of(scene);
   for (uint64_t i = 0; i < 100000; i++) {
     Random random(5, i);
-    const Lights::Arrival arrival = trace->lights().sample({}, random);
+    const Arrival arrival = world->lights().sample({}, random);
     ASSERT_TRUE(is_finite(arrival.radiance)) << i;
     ASSERT_GT(arrival.radiance[0], 0) << i;
-    ASSERT_TRUE(is_finite(trace->lights().emit(random).flux)) << i;
+    ASSERT_TRUE(is_finite(world->lights().emit(random).flux)) << i;
   }
 }
 
@@ -143,15 +144,15 @@ TEST(Lights, FindsTheLitPartOfATexture) {
   material.emission_texture.image = 0;
   material.emission_texture.wrap_u = material.emission_texture.wrap_v = TextureLookup::Wrap::clamp;
   scene.images = {{64, 64, 1, std::vector<uint8_t>(64 * 64)}};
-  EXPECT_TRUE(traced(scene)->lights().dark());
+  EXPECT_TRUE(world_of(scene)->lights().dark());
   scene.images[0].pixels[64 * 50 + 7] = 255;
-  const auto trace = traced(scene);
-  ASSERT_FALSE(trace->lights().dark());
+  const auto world = world_of(scene);
+  ASSERT_FALSE(world->lights().dark());
   double flux = 0;
   const int count = 400000;
   for (int i = 0; i < count; i++) {
     Random random(6, static_cast<uint64_t>(i));
-    flux += static_cast<double>(trace->lights().emit(random).flux[0]) / count;
+    flux += static_cast<double>(world->lights().emit(random).flux[0]) / count;
   }
   // pi * 1000 of one texel in 4096, which one photon in 2048 meets: 4 / sqrt(195) of it.
   EXPECT_NEAR(flux / (static_cast<double>(pi) * 1000 / 4096), 1, 0.3);
@@ -162,7 +163,7 @@ TEST(Lights, FindsTheLitPartOfATexture) {
   Image mask{3, 3, 2, std::vector<uint8_t>(18, 255)};
   for (const size_t hole : {2u, 4u, 6u}) mask.pixels[2 * hole + 1] = 0;
   scene.images = {mask};
-  EXPECT_FALSE(traced(scene)->lights().dark());
+  EXPECT_FALSE(world_of(scene)->lights().dark());
 }
 
 // Photons of all kinds of sources carry their power on average.
@@ -174,14 +175,14 @@ TEST(Lights, EmitTheirPower) {
   Material lamp = lambertian(0, 2);
   lamp.double_sided = true;
   add(scene, quad({{0, 4, 0}}, {{1, 0, 0}}, {{0, 0, 1}}), lamp);
-  const auto trace = traced(scene);
-  const Lights& lights = trace->lights();
+  const auto world = world_of(scene);
+  const Lights& lights = world->lights();
   ASSERT_EQ(lights.luminaires().size(), 5u);
   std::vector<double> flux(5);
   const int count = 200000;
   for (int i = 0; i < count; i++) {
     Random random(3, static_cast<uint64_t>(i));
-    const Lights::Emission emission = lights.emit(random);
+    const Emission emission = lights.emit(random);
     flux[static_cast<size_t>(emission.luminaire)] += static_cast<double>(emission.flux[0]) / count;
   }
   const float radius = length(lights.region().size()) / 2;
@@ -194,13 +195,20 @@ TEST(Lights, EmitTheirPower) {
   }
 }
 
+TEST(Lights, BeyondAFloatAreRefused) {
+  const Scene scene = scene_of(quad({{0, 0, 0}}, {{1e8f, 0, 0}}, {{0, 1e8f, 0}}), lambertian(0, 1e30f));
+  const auto result = World::build(scene);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message(), "lights: they are too bright: their power is beyond a float");
+}
+
 TEST(Lights, CountConnectedPiecesAsLuminaires) {
   Scene scene = floor_scene();
   Mesh lamps = quad({{0, 3, 0}}, {{1, 0, 0}}, {{0, 0, 1}});
   append(lamps, quad({{3, 3, 0}}, {{1, 0, 0}}, {{0, 0, 2}}));
   add(scene, lamps, lambertian(0, 1));
-  const auto trace = traced(scene);
-  const auto& all = trace->lights().luminaires();
+  const auto world = world_of(scene);
+  const auto& all = world->lights().luminaires();
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].faces, (std::vector<uint32_t>{0, 1}));
   EXPECT_NEAR(all[1].area, 2, 1e-6f);
@@ -210,12 +218,12 @@ TEST(Lights, CountConnectedPiecesAsLuminaires) {
 // In a closed room of albedo rho a photon makes 1 / (1 - rho) flights on average, all of them the same flux.
 TEST(Photons, AreReflectedByTheAlbedo) {
   const Scene scene = scene_of(room({{0, 0, 0}}, {{1, 1, 1}}), lambertian(0.75f, 1));
-  const auto trace = traced(scene);
+  const auto world = world_of(scene);
   const uint64_t count = 20000;
   double flights = 0;
   for (uint64_t i = 0; i < count; i++) {
     Flight flight;
-    for (PhotonWalk walk(*trace, 1, i); walk.next(flight);) {
+    for (PhotonWalk walk(*world, 1, i); walk.next(flight);) {
       flights++;
       ASSERT_NEAR(flight.flux[0], 6 * pi, 1e-4f);
       ASSERT_TRUE(std::isfinite(flight.length));
@@ -230,12 +238,12 @@ TEST(Photons, AreReflectedByTheAlbedo) {
 TEST(Photons, EndAtTheRangeOfTheirLamp) {
   Scene scene = floor_scene();
   scene.lamps = {point_lamp({{0, 100, 0}}, Vec3f::filled(1), 2)};
-  const auto trace = traced(scene);
+  const auto world = world_of(scene);
   int beyond = 0;
   const int count = 20000;
   for (int i = 0; i < count; i++) {
     Flight flight;
-    PhotonWalk walk(*trace, 1, static_cast<uint64_t>(i));
+    PhotonWalk walk(*world, 1, static_cast<uint64_t>(i));
     ASSERT_TRUE(walk.next(flight));
     ASSERT_LE(flight.length, 2);
     beyond += flight.length > 1;

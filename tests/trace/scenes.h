@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "lightwell/base/assert.h"
-#include "lightwell/trace/lights.h"
-#include "lightwell/trace/trace_scene.h"
+#include "lightwell/trace/world.h"
+#include "tests/trace/luminaires.h"
 
 namespace lightwell {
 
@@ -120,9 +120,16 @@ inline Lamp sun_lamp(const Vec3f& direction, float irradiance) {
   return lamp;
 }
 
-/// A scene made ready, which must be possible.
+/// The surfaces of a scene made ready, which must be possible.
 inline std::unique_ptr<const TraceScene> traced(const Scene& scene) {
   auto result = TraceScene::build(scene);
+  LW_ASSERT(result.has_value());
+  return std::move(*result);
+}
+
+/// A scene made ready with its lights, which must be possible.
+inline std::unique_ptr<const World> world_of(const Scene& scene) {
+  auto result = World::build(scene);
   LW_ASSERT(result.has_value());
   return std::move(*result);
 }

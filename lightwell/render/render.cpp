@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/render/integrator.h"
+#include "lightwell/render/render.h"
 
 #include <atomic>
 #include <chrono>
@@ -13,11 +13,11 @@ namespace {
 /// What the light of one camera ray adds up to.
 class Renderer {
  public:
-  Renderer(const TraceScene& scene, const Camera& camera, const RenderOptions& options)
-      : scene_(scene), camera_(camera), options_(options) {
-    path_.max_bounces = options.integrator == Integrator::path ? options.max_bounces : 0;
-    if (options.integrator == Integrator::ivg) path_.apart = options.contained;
-  }
+  Renderer(const World& world, const Camera& camera, const RenderOptions& options)
+      : world_(world),
+        camera_(camera),
+        options_(options),
+        integrator_(options.integrator->make(world, options.light)) {}
 
   /// The mean radiance over a pixel; adds the rays that it took.
   Vec3f pixel(int x, int y, uint64_t& rays) const {
@@ -35,62 +35,48 @@ class Renderer {
 
  private:
   Vec3f radiance(const Ray& ray, Random& random, uint64_t& rays) const {
-    const bool total = options_.part == LightPart::total;
+    const TraceScene& surfaces = world_.surfaces();
+    const bool total = options_.light.part == LightPart::total;
     Hit hit;
     rays++;
-    if (!scene_.intersect(ray, random, hit)) {
-      return total ? scene_.lights().environment().radiance(ray.direction) : Vec3f{};
-    }
-    const Surface surface = scene_.surface(hit);
+    if (!surfaces.intersect(ray, random, hit))
+      return total ? world_.lights().environment().radiance(ray.direction) : Vec3f{};
+    const Surface surface = surfaces.surface(hit);
     const Receiver receiver{.position = hit.position,
                             .normal = hit.facing_normal(),
-                            .shading_normal = scene_.shading_normal(hit),
+                            .shading_normal = surfaces.shading_normal(hit),
                             .out = -ray.direction,
                             .bsdf = surface.bsdf};
-    Vec3f sum = total ? scene_.emission(hit, surface) : Vec3f{};
-    if (options_.part != LightPart::indirect || options_.integrator == Integrator::path) {
-      const ReceivedLight light = trace_path(scene_, receiver, path_, random);
+    Vec3f sum = total ? surfaces.emission(hit, surface) : Vec3f{};
+    if (integrator_->samples()) {
+      const ReflectedLight light = integrator_->sample(receiver, random);
       rays += static_cast<uint64_t>(light.rays);
-      if (options_.part != LightPart::indirect) sum += light.direct;
-      if (options_.part != LightPart::direct) sum += light.indirect;
+      sum += light.radiance;
     }
-    if (options_.part != LightPart::direct && options_.integrator == Integrator::ivg) {
-      sum += reflected_from_grid(*options_.grid, receiver);
-    }
-    return sum;
+    return sum + integrator_->known(receiver);
   }
 
-  const TraceScene& scene_;
+  const World& world_;
   const Camera& camera_;
   const RenderOptions& options_;
-  PathOptions path_;
+  std::unique_ptr<Integrator> integrator_;
 };
 
 Result<void> check(const RenderOptions& options) {
   if (options.width <= 0 || options.height <= 0) return fail("picture", "its size must be positive");
   if (options.samples <= 0) return fail("picture", "it needs at least one sample a pixel");
-  if (options.integrator == Integrator::ivg && !options.grid)
+  if (options.integrator->needs_field && !options.light.field)
     return fail("picture", "there is no light grid to look up");
   return {};
 }
 
 }  // namespace
 
-Vec3f reflected_from_grid(const LightGrid& grid, const Receiver& receiver) {
-  const Vec3f& normal = receiver.shading_normal;
-  Vec3f light = receiver.bsdf.diffuse * grid.irradiance(receiver.position, normal);
-  if (max_component(receiver.bsdf.metal) > 0) {
-    const Vec3f mirrored = normalized(normal * (2 * dot(normal, receiver.out)) - receiver.out);
-    light += receiver.bsdf.metal * grid.irradiance(receiver.position, mirrored);
-  }
-  return light / pi;
-}
-
-Result<Picture> render(const TraceScene& scene, const Camera& camera, const RenderOptions& options, Progress& progress,
+Result<Picture> render(const World& world, const Camera& camera, const RenderOptions& options, Progress& progress,
                        RenderStatistics& statistics) {
   LW_CHECK(check(options));
   const auto start = std::chrono::steady_clock::now();
-  const Renderer renderer(scene, camera, options);
+  const Renderer renderer(world, camera, options);
   Picture picture{options.width, options.height, {}};
   const size_t width = static_cast<size_t>(options.width), height = static_cast<size_t>(options.height);
   picture.pixels.resize(3 * width * height);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "lightwell/bake/node_space.h"
+#include "lightwell/light/grid.h"
+
+namespace lightwell {
+
+/// What an estimator has added up over some of its samples. Sums of disjoint samples add up to the same bits in any
+/// order, whether threads, runs or machines made them: they are integers, or of finished nodes.
+class PartialLight {
+ public:
+  virtual ~PartialLight() = default;
+  /// Adds the sum of other samples of the same estimator.
+  virtual void add(const PartialLight& other) = 0;
+};
+
+/// The light at the nodes of a grid.
+struct NodeLight {
+  std::vector<Moments> moments;  ///< W/m2; zeros at invalid nodes
+  float noise = 0;               ///< root mean square error by chance, as a share of the root mean square of the light
+  uint64_t rays = 0;             ///< that it took
+};
+
+/// A way to estimate the light at the nodes of a grid, from samples that do not depend on each other: photons, or
+/// nodes. Threads may share it.
+class Estimator {
+ public:
+  virtual ~Estimator() = default;
+  /// How many samples there are.
+  virtual uint64_t samples() const = 0;
+  /// What they are: "photons", "nodes".
+  virtual std::string_view unit() const = 0;
+  /// The sum of no samples.
+  virtual std::unique_ptr<PartialLight> nothing() const = 0;
+  /// How much memory such a sum takes.
+  virtual size_t partial_bytes() const = 0;
+  /// Adds the samples begin ... end-1 to a sum of this estimator.
+  virtual void add(uint64_t begin, uint64_t end, PartialLight& sum) const = 0;
+  /// The light that the sum of all samples stands for.
+  virtual NodeLight finish(const PartialLight& whole, const NodeSpace& space) const = 0;
+};
+
+/// What an estimator is told.
+struct EstimatorOptions {
+  uint64_t photons = 8'000'000;
+  uint64_t seed = 1;
+  /// The luminaires whose direct light goes into the grid as well.
+  LuminaireSet contained;
+};
+
+/// A row of the table of estimators. A new one is a file and a row.
+struct EstimatorKind {
+  const char* name;
+  const char* help;  ///< a few words for the command line
+  /// World and options outlive the estimator.
+  std::unique_ptr<Estimator> (*make)(const World& world, const GridShape& shape, const EstimatorOptions& options);
+};
+
+/// All estimators, the default one first.
+std::span<const EstimatorKind> estimators();
+
+}  // namespace lightwell

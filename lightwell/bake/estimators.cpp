@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "lightwell/bake/estimator.h"
+#include "lightwell/bake/track_estimator.h"
+
+namespace lightwell {
+
+std::span<const EstimatorKind> estimators() {
+  static constexpr std::array table{
+      EstimatorKind{"tracks", "the lengths of photons' flights through the nodes' boxes", make_track_estimator},
+  };
+  return table;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/light/grid.h"
+
+namespace lightwell {
+
+/// Which light a grid holds.
+struct GridContents {
+  bool indirect = true;      ///< after at least one reflection
+  bool environment = false;  ///< straight from the environment
+  bool lamps = false;        ///< straight from the luminaires that no client lights by itself
+
+  bool operator==(const GridContents&) const = default;
+};
+
+/// The baked light of a scene: a list of grids.
+class LightField {
+ public:
+  struct Layer {
+    LightGrid grid;
+    GridContents contents;
+    int priority = 0;
+  };
+
+  LightField() = default;
+  explicit LightField(std::vector<Layer> layers);
+
+  bool empty() const { return layers_.empty(); }
+  /// The grids, the one of the highest priority first.
+  const std::vector<Layer>& layers() const { return layers_; }
+
+  /// Irradiance (W/m2, RGB) as LightGrid::irradiance. Of grids with the same contents, the one of the highest priority
+  /// whose box the point lies in answers; where none does, the one of the lowest priority, which reaches farthest.
+  /// Light of different contents adds up.
+  Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
+
+ private:
+  std::vector<Layer> layers_;
+};
+
+}  // namespace lightwell

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/render/integrator.h"
+
+namespace lightwell {
+
+/// Path tracing: the reference, right for every light up to its greatest number of bounces.
+std::unique_ptr<Integrator> make_path_integrator(const World& world, const IntegratorOptions& options);
+
+/// Path tracing of the direct light alone.
+std::unique_ptr<Integrator> make_direct_integrator(const World& world, const IntegratorOptions& options);
+
+}  // namespace lightwell

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lightwell/trace/emissive_face.h"
+#include "lightwell/trace/environment.h"
+#include "lightwell/trace/light_region.h"
+#include "lightwell/trace/luminaire.h"
+
+namespace lightwell {
+
+/// The luminaires of a scene and what they are made of: one element a lamp, one a face of emissive surface, one for the
+/// environment. Elements are what sampling chooses among.
+struct LuminaireInventory {
+  struct Element {
+    int luminaire = 0;
+    float weight = 0;  ///< what it is chosen by: about its power, W
+  };
+
+  std::vector<Luminaire> luminaires;
+  std::vector<Element> elements;    ///< lamps first, then faces, then the environment
+  std::vector<EmissiveFace> faces;  ///< of the elements behind those of lamps, in their order
+  std::vector<int> first_element;   ///< of each instance, its faces follow one another; -1: does not shine
+  int environment_luminaire = -1;   ///< its element is the last one; -1 when it is black
+  size_t first_face() const { return elements.size() - faces.size() - (environment_luminaire >= 0); }
+};
+
+/// Counts the sources of light of a scene. Every connected piece of emissive surface is a luminaire, also one that
+/// turns out to be black.
+LuminaireInventory take_inventory(const TraceScene& scene, const EnvironmentLight& environment,
+                                  const LightRegion& region);
+
+}  // namespace lightwell

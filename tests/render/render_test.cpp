@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/render/render.h"
+
+#include <gtest/gtest.h>
+
+#include "lightwell/render/camera.h"
+#include "lightwell/render/grid_integrator.h"
+#include "tests/trace/scenes.h"
+#include "tests/trace/truth.h"
+
+namespace lightwell {
+namespace {
+
+Picture take(const World& world, const Camera& camera, const RenderOptions& options) {
+  Progress silent;
+  RenderStatistics statistics;
+  auto picture = render(world, camera, options, silent, statistics);
+  LW_ASSERT(picture.has_value());
+  LW_ASSERT(statistics.rays > 0);
+  return std::move(*picture);
+}
+
+RenderOptions small(LightPart part, std::string_view integrator = "path") {
+  RenderOptions options;
+  options.integrator = &find_integrator(integrator);
+  options.light.part = part;
+  options.width = 16;
+  options.height = 12;
+  options.samples = 256;
+  return options;
+}
+
+double mean(const Picture& picture) {
+  double sum = 0;
+  for (const float value : picture.pixels) sum += static_cast<double>(value);
+  return sum / static_cast<double>(picture.pixels.size());
+}
+
+/// A grid of the same light in all directions everywhere.
+LightGrid uniform_grid(float irradiance) {
+  LightGrid grid;
+  grid.shape = {.lo = Vec3f::filled(-10), .cell = Vec3f::filled(20), .nodes = {{2, 2, 2}}};
+  Moments moments;
+  for (size_t i = 0; i < 6; i++) moments.m[i] = Vec3f::filled(irradiance);
+  grid.moments.assign(8, moments);
+  grid.valid.assign(8, 1);
+  return grid;
+}
+
+Camera camera_at(const Vec3d& eye) {
+  Camera camera;
+  camera.to_scene = Transform::translation(eye);
+  return camera;
+}
+
+TEST(Camera, LooksAlongItsNegativeZ) {
+  Camera camera = camera_at({{1, 2, 3}});
+  camera.yfov = pi / 2;
+  const Ray middle = camera_ray(camera, 2, 0.5f, 0.5f);
+  EXPECT_EQ(middle.origin, (Vec3f{{1, 2, 3}}));
+  EXPECT_EQ(middle.direction, (Vec3f{{0, 0, -1}}));
+  const Ray corner = camera_ray(camera, 2, 1, 0);  // top right: 45 degrees up, twice as far to the side
+  EXPECT_NEAR(length(corner.direction - normalized(Vec3f{{2, 1, -1}})), 0, 1e-6f);
+}
+
+// Emitted radiance 1, direct irradiance pi and indirect pi times albedo 0.5 / pi: 1 + 0.5 + 0.5 in every pixel.
+TEST(Render, OfTheFurnaceIsTwo) {
+  const Scene scene = truth_scene("c_furnace");
+  const auto world = world_of(scene);
+  const Camera& camera = scene.cameras.at(0);
+  // 192 pixels of 256 samples, each of which scatters by less than 1 (its path's number of bounces): 0.5 %, three
+  // times.
+  EXPECT_NEAR(mean(take(*world, camera, small(LightPart::total))), 2, 0.015);
+  EXPECT_NEAR(mean(take(*world, camera, small(LightPart::direct))), 0.5, 0.004);
+  EXPECT_NEAR(mean(take(*world, camera, small(LightPart::indirect))), 0.5, 0.015);
+  EXPECT_NEAR(mean(take(*world, camera, small(LightPart::total, "direct"))), 1.5, 0.004);
+}
+
+TEST(Render, CountsBouncesBetweenSourceAndSurface) {
+  const Scene scene = truth_scene("c_furnace");
+  const auto world = world_of(scene);
+  RenderOptions options = small(LightPart::indirect);
+  options.light.max_bounces = 0;
+  EXPECT_EQ(mean(take(*world, scene.cameras.at(0), options)), 0);
+  options.light.max_bounces = 1;  // pi * 0.5 arrives
+  EXPECT_NEAR(mean(take(*world, scene.cameras.at(0), options)), 0.25, 0.003);
+  options.light.max_bounces = 2;
+  EXPECT_NEAR(mean(take(*world, scene.cameras.at(0), options)), 0.375, 0.004);
+}
+
+TEST(Render, LooksUpTheGrid) {
+  const Scene scene = truth_scene("c_furnace");
+  const auto world = world_of(scene);
+  const LightField grid({{uniform_grid(pi), {}, 0}});
+  RenderOptions options = small(LightPart::indirect, "ivg");
+  options.light.field = &grid;
+  for (const float value : take(*world, scene.cameras.at(0), options).pixels) EXPECT_NEAR(value, 0.5f, 1e-4f);
+  options.light.part = LightPart::total;
+  EXPECT_NEAR(mean(take(*world, scene.cameras.at(0), options)), 2, 0.004);
+  // What the grid contains is not lit again.
+  options.light.held = LuminaireSet::all(world->lights().luminaires().size());
+  EXPECT_NEAR(mean(take(*world, scene.cameras.at(0), options)), 1.5, 1e-4);
+}
+
+/// A surface that faces up, seen by who looks from `out`.
+Receiver metal_floor(const Vec3f& out) {
+  Receiver receiver;
+  receiver.normal = receiver.shading_normal = {{0, 1, 0}};
+  receiver.out = normalized(out);
+  receiver.bsdf = {.metal = Vec3f::filled(0.5f), .metallic = 1};
+  return receiver;
+}
+
+TEST(Render, GivesMetalsTheGridsLightOfTheMirroredDirection) {
+  LightGrid grid = uniform_grid(0);
+  for (Moments& moments : grid.moments) moments.m[0] = Vec3f::filled(2);  // light from +x
+  const LightField field({{grid, {}, 0}});
+  EXPECT_NEAR(reflected_from_field(field, metal_floor({{-1, 0.001f, 0}}))[0], 0.5f * 2 / pi, 0.005f);
+  EXPECT_LT(reflected_from_field(field, metal_floor({{1, 0.001f, 0}}))[0], 0.005f);
+}
+
+// Whichever way a metal is looked at, it is lit by the light in front of it: the lookup is moved along the surface's
+// normal, not along the mirrored direction, which at a grazing angle would find the light of the place itself.
+TEST(Render, LooksUpMetalsAtTheSamePlaceFromEverywhere) {
+  LightGrid grid;
+  grid.shape = {.lo = Vec3f::filled(-10), .cell = {{20, 1, 20}}, .nodes = {{2, 21, 2}}};
+  grid.normal_offset = 0.5f;
+  for (size_t node = 0; node < grid.shape.count(); node++) {
+    Moments& moments = grid.moments.emplace_back();  // the same from everywhere, as much as its height
+    for (size_t i = 0; i < 6; i++) moments.m[i] = Vec3f::filled(grid.shape.position(grid.shape.node(node))[1] + 10);
+  }
+  grid.valid.assign(grid.shape.count(), 1);
+  const LightField field({{grid, {}, 0}});
+  // Half a cell of 1 m above the floor at 0 the irradiance is 10.5.
+  for (const Vec3f& out : {Vec3f{{0, 1, 0}}, Vec3f{{1, 1, 0}}, Vec3f{{1, 0.01f, 0}}, Vec3f{{0, 0.01f, -1}}})
+    EXPECT_NEAR(reflected_from_field(field, metal_floor(out))[0], 0.5f * 10.5f / pi, 1e-3f);
+}
+
+TEST(Render, ShowsTheEnvironmentOnlyInTheTotal) {
+  Scene scene = scene_of(quad({{50, 50, 50}}, {{1, 0, 0}}, {{0, 1, 0}}), lambertian(0.5f));
+  scene.environment.radiance = {{1, 2, 3}};
+  const auto world = world_of(scene);
+  EXPECT_NEAR(mean(take(*world, camera_at({}), small(LightPart::total))), 2, 1e-6);
+  EXPECT_EQ(mean(take(*world, camera_at({}), small(LightPart::direct))), 0);
+}
+
+TEST(Render, GivesTheSameBytesForAnyNumberOfThreads) {
+  const Scene scene = truth_scene("a_cornell");
+  const auto world = world_of(scene);
+  RenderOptions options = small(LightPart::total);
+  options.samples = 8;
+  options.threads = 1;
+  const Picture one = take(*world, scene.cameras.at(0), options);
+  options.threads = 3;
+  EXPECT_EQ(take(*world, scene.cameras.at(0), options).pixels, one.pixels);
+}
+
+TEST(Render, RefusesWhatItCannotDo) {
+  const Scene scene = truth_scene("c_furnace");
+  const auto world = world_of(scene);
+  Progress silent;
+  RenderStatistics statistics;
+  RenderOptions options = small(LightPart::total, "ivg");
+  EXPECT_EQ(render(*world, {}, options, silent, statistics).error().message(),
+            "picture: there is no light grid to look up");
+  options = small(LightPart::total);
+  options.width = 0;
+  EXPECT_EQ(render(*world, {}, options, silent, statistics).error().message(), "picture: its size must be positive");
+}
+
+}  // namespace
+}  // namespace lightwell
