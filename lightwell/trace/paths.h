@@ -30,6 +30,7 @@ class ReceivedLight {
 /// luminaires `left_out`, such as those whose light a grid holds, is in neither.
 class DirectAndIndirect : public ReceivedLight {
  public:
+  /// The set outlives this.
   explicit DirectAndIndirect(const LuminaireSet& left_out) : left_out_(left_out) {}
   void add(int luminaire, int bounces, const Vec3f& light) override {
     if (bounces > 0)
