@@ -9,6 +9,9 @@ import { bundle } from './bundle.mjs';
 /** Properties that three.js keeps to itself: the page holds all of three.js, so that nothing else needs their names. */
 const PRIVATE_PROPERTIES = /^_[a-z]/;
 
+/** What a browser's extension for developers of three.js would look for. */
+const HOOKS = { __THREE_DEVTOOLS__: 'undefined' };
+
 process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });
 await mkdir('dist');
@@ -19,7 +22,11 @@ const bundles = await Promise.all([
     splitting: true,
   }),
   bundle({ entryPoints: { worker: 'src/core/worker.ts' } }),
-  bundle({ entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' }, mangleProps: PRIVATE_PROPERTIES }),
+  bundle({
+    entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' },
+    mangleProps: PRIVATE_PROPERTIES,
+    define: HOOKS,
+  }),
 ]);
 await Promise.all(bundles.flat().map(({ path, text }) => writeFile(path, text)));
 await writeFile('dist/index.html', (await readFile('src/page/index.html', 'utf8')).replace(/^ +/gm, ''));

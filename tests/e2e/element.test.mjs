@@ -68,6 +68,27 @@ Object.assign(WebGL2RenderingContext.prototype, {
 addEventListener('DOMContentLoaded', () =>
   document.querySelector('lightwell-view').addEventListener('complete', () => (times.complete = performance.now())));`;
 
+/**
+ * Runs in the page before its scripts: `requests` holds the animation frames that the page's script asks for, `most` how many were
+ * at once. The test's own script waits by frames too.
+ */
+const COUNT_REQUESTS = `globalThis.requests = new Set();
+globalThis.most = 0;
+const { requestAnimationFrame, cancelAnimationFrame } = globalThis;
+globalThis.requestAnimationFrame = (call) => {
+  const request = requestAnimationFrame((time) => (requests.delete(request), call(time)));
+  if (!new Error().stack.includes('/page.js')) return request;
+  most = Math.max(most, requests.add(request).size);
+  return request;
+};
+globalThis.cancelAnimationFrame = (request) => (requests.delete(request), cancelAnimationFrame(request));`;
+
+test('an element asks for one animation frame at a time, and for none when its picture is still', async (t) => {
+  const { page } = await openView(t, COUNT_REQUESTS);
+  await page.waitForTimeout(LONG_REST);
+  assert.deepEqual(await page.evaluate(() => [globalThis.most, globalThis.requests.size]), [1, 0]);
+});
+
 test('completion is said when the GPU has drawn the last picture', async (t) => {
   const { page, errors } = await openView(t, SLOW_GPU);
   await page.waitForTimeout(3 * SLOW);

@@ -128,7 +128,7 @@ export class LightwellView extends HTMLElement {
 
   /** Draws a frame now, in the caller's turn. */
   draw(): void {
-    this.#stage?.draw(performance.now());
+    this.#stage?.draw();
   }
 
   /** Asks for a frame with new shadows: call it after a change of the scene. */
@@ -150,7 +150,7 @@ export class LightwellView extends HTMLElement {
   /** The present picture. */
   toDataURL(type?: string, quality?: number): string {
     if (this.#stage === null) throw new Error('lightwell-view: not part of a page');
-    this.#stage.draw(performance.now());
+    this.#stage.draw();
     return this.#stage.canvas.toDataURL(type, quality);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { LinearToneMapping, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { FRAME, FrameScheduler, type FrameTask } from '../three/frame_scheduler.js';
 
 export type Tone = 'neutral' | 'none';
 
@@ -9,8 +10,6 @@ const SHADOW_INTERVAL = 500;
 const MOST_PIXEL_RATIO = 2;
 /** Frames further apart than this are not one animation, in milliseconds. */
 const PAUSE = 250;
-/** What seems to take the GPU longer than this, in milliseconds, is taken for a page that was hidden meanwhile. */
-const LONGEST_FRAME = 5000;
 
 /** A canvas with renderer, scene and camera that draws a frame only when one is asked for. */
 export class Stage {
@@ -23,15 +22,12 @@ export class Stage {
   afterFrame: () => void = () => {};
   /** The vertical field of view of a canvas that is at least as wide as high, in degrees. */
   fieldOfView = 45;
-  readonly #gl: WebGL2RenderingContext;
-  #request = 0;
+  readonly #scheduler: FrameScheduler;
+  /** Takes half of the GPU's time: the other half is for handing over what comes next, so that a slow GPU gets to the end. */
+  readonly #drawing: FrameTask;
   #running = true;
   #lastFrame = -Infinity;
   #interval = Infinity;
-  /** When the last frame was drawn, and how long the GPU took for it: endless until it is done. */
-  #drawn = -Infinity;
-  #duration = 0;
-  #seldomRequest = 0;
   #shadowTime = -Infinity;
   #shadowTimer: ReturnType<typeof setTimeout> | undefined;
 
@@ -39,8 +35,9 @@ export class Stage {
   constructor() {
     const context = this.canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
     if (context === null) throw new Error('This browser has no WebGL2, which it takes to show a 3D scene.');
-    this.#gl = context;
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
+    this.#scheduler = FrameScheduler.of(this.renderer);
+    this.#drawing = this.#scheduler.add(({ time }) => this.#draw(time), FRAME / 2);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.shadowMap.autoUpdate = false;
@@ -72,7 +69,7 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.setFieldOfView(this.fieldOfView);
-    this.draw(performance.now());
+    this.draw();
   }
 
   /** `fieldOfView` in degrees. */
@@ -86,17 +83,12 @@ export class Stage {
 
   /** Asks for a frame. */
   invalidate(): void {
-    if (this.#running && this.#request === 0) this.#request = requestAnimationFrame((time) => this.draw(time));
+    if (this.#running) this.#drawing.requestNow();
   }
 
-  /**
-   * Asks for a frame that shows what has come. The GPU draws such frames half of the time at most: the other half is for handing
-   * over what comes next, so that a slow GPU gets to the end.
-   */
+  /** Asks for a frame that shows what has come: the GPU draws such frames half of the time at most. */
   invalidateSeldom(): void {
-    cancelAnimationFrame(this.#seldomRequest);
-    if (this.#rested()) this.invalidate();
-    else this.#seldomRequest = requestAnimationFrame(() => this.invalidateSeldom());
+    if (this.#running) this.#drawing.request();
   }
 
   /** The next frame shows what moved in its shadows too; at most twice a second. */
@@ -115,25 +107,21 @@ export class Stage {
   /** While stopped no frame is drawn but by `draw` and `resize`; what was asked for meanwhile is drawn at the start. */
   setRunning(running: boolean): void {
     this.#running = running;
-    if (running) return this.invalidate();
-    cancelAnimationFrame(this.#request);
-    this.#request = 0;
+    if (running) this.invalidate();
+    else this.#drawing.cancel();
   }
 
-  draw(time: number): void {
-    cancelAnimationFrame(this.#request);
-    cancelAnimationFrame(this.#seldomRequest);
-    this.#request = 0;
+  /** Draws a frame now. */
+  draw(): void {
+    this.#drawing.run();
+  }
+
+  #draw(time: number): void {
     const interval = time - this.#lastFrame;
     this.#interval = interval > PAUSE || this.#interval === Infinity ? interval : 0.9 * this.#interval + 0.1 * interval;
     this.#lastFrame = time;
     this.beforeFrame(Math.min(interval, PAUSE) / 1000);
     this.renderer.render(this.scene, this.camera);
-    const drawn = (this.#drawn = performance.now());
-    this.#duration = Infinity;
-    this.#whenDone(() => {
-      if (drawn === this.#drawn) this.#duration = Math.min(LONGEST_FRAME, performance.now() - drawn);
-    });
     this.afterFrame();
   }
 
@@ -141,32 +129,13 @@ export class Stage {
   finish(then: () => void): void {
     clearTimeout(this.#shadowTimer);
     this.renderer.shadowMap.needsUpdate = true;
-    this.draw(performance.now());
-    this.#whenDone(then);
-  }
-
-  /** Calls back in the first of the browser's frames in which the GPU is done with all that it was told, or lost. */
-  #whenDone(then: () => void): void {
-    const gl = this.#gl;
-    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
-    const look = () => {
-      if (fence !== null && gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) return void requestAnimationFrame(look);
-      gl.deleteSync(fence);
-      then();
-    };
-    look();
-  }
-
-  /** Whether the GPU has been free for as long as the last frame took. */
-  #rested(): boolean {
-    return performance.now() >= this.#drawn + 2 * this.#duration;
+    this.draw();
+    this.#scheduler.whenDone(then);
   }
 
   dispose(): void {
-    this.setRunning(false);
+    this.#drawing.dispose();
     clearTimeout(this.#shadowTimer);
-    cancelAnimationFrame(this.#seldomRequest);
     this.renderer.dispose();
     this.renderer.forceContextLoss();
   }

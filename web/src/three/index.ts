@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Packs in three.js.
+export { Frame, FrameScheduler, FrameTask } from './frame_scheduler.js';
 export { LightwellLight } from './light.js';
 export { PackError } from './pack_error.js';
 export { LightwellLoader, type LoaderOptions } from './loader.js';

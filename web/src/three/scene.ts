@@ -25,6 +25,7 @@ import {
   payload,
 } from '../core/protocol.js';
 import { disposeAll } from './dispose.js';
+import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
 import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
@@ -35,7 +36,7 @@ import type { Opening } from './opening.js';
 import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
 import { TextureRefinement } from './texture_refinement.js';
-import { UploadBudget } from './upload_budget.js';
+import type { UploadBudget } from './upload_budget.js';
 import { viewWeights } from './view_weights.js';
 import { drawsEdges, showEdges } from './wireframe.js';
 
@@ -58,9 +59,9 @@ export interface SceneOptions {
 }
 
 /**
- * A pack in a three.js scene. It refines itself: in each of the browser's animation frames at most 256 KB go to the GPU, into
- * buffers and textures that have their final sizes from the start; a picture is worth drawing only at a `change`. It may be
- * moved, turned and scaled; its light follows.
+ * A pack in a three.js scene. It refines itself, whoever draws it: in each of the browser's animation frames at most 256 KB go to
+ * the renderer's GPU, into buffers and textures that have their final sizes from the start; a picture is worth drawing only at a
+ * `change`. It may be moved, turned and scaled; its light follows.
  */
 export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** The baked light. Objects of the user's own within its bounds are lit by it. */
@@ -78,7 +79,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #images: Map<number, TextureRefinement>;
   readonly #lights = new Map<number, LightRefinement>();
   readonly #handOver: HandOver;
-  #request = 0;
+  readonly #uploads: FrameTask;
   #received = false;
   #complete = false;
   #wireframe = false;
@@ -97,6 +98,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#connection = connection;
     this.#renderer = renderer;
     this.#handOver = new HandOver(renderer);
+    this.#uploads = FrameScheduler.of(renderer).add(({ bytes }) => this.#refine(bytes));
     renderer.domElement.addEventListener('webglcontextrestored', this.#restart);
     this.add(opening.gltf.scene);
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
@@ -160,7 +162,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   override dispose(): void {
     super.dispose();
     this.#connection.close();
-    cancelAnimationFrame(this.#request);
+    this.#uploads.dispose();
     this.#handOver.dispose();
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
@@ -183,7 +185,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       case 'connection':
         this.#received = event.state === 'complete';
         this.dispatchEvent({ type: 'connection', state: event.state });
-        return this.#refineSoon();
+        return this.#uploads.request();
       case 'failure':
         return void this.dispatchEvent({ type: 'failure', reason: event.reason, message: event.message });
       default:
@@ -219,14 +221,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.dispatchEvent({ type: 'failure', reason: 'unreadable', message: messageOf(error) });
   }
 
-  #refineSoon(): void {
-    if (this.#request === 0) this.#request = requestAnimationFrame(() => this.#refine());
-  }
-
-  /** Hands over what an animation frame has room for. */
-  #refine(): void {
-    this.#request = 0;
-    const budget = new UploadBudget();
+  /** Hands over what a frame has room for. */
+  #refine(budget: UploadBudget): void {
     const touched: BufferGeometry[] = [];
     let [changed, grown, pending, consumed] = [false, false, false, 0];
     for (const refinement of this.#refinements()) {
@@ -244,7 +240,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     if (consumed > 0) this.#connection.consumed(consumed);
     if (grown) this.dispatchEvent({ type: 'geometry' });
     if (changed) this.#changed();
-    if (pending) this.#refineSoon();
+    if (pending) this.#uploads.request();
     else if (this.#received && !this.#complete) this.#onComplete();
   }
 
@@ -268,7 +264,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   ): void {
     if (refinement === undefined) this.#connection.consumed(payload(event)?.byteLength ?? 0);
     else refinement.receive(event)?.catch((error: unknown) => this.#fail(error));
-    this.#refineSoon();
+    this.#uploads.request();
   }
 
   #startMesh(layout: MeshEvent): void {
