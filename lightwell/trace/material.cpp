@@ -103,14 +103,19 @@ Surface surface_of(const Material& material, const std::vector<Image>& images, c
   Surface surface;
   if (material.alpha == Material::Alpha::mask) surface.coverage = base[3] >= material.alpha_cutoff ? 1.0f : 0.0f;
   if (material.alpha == Material::Alpha::blend) surface.coverage = std::clamp(base[3], 0.0f, 1.0f);
-  // What passes is as strong as the pane's mean colour allows; what is met reflects the colour's untransmitted share.
-  const float transmission = material.transmission * (1 - metallic);
-  const float passing = transmission * mean_of_channels(color);
-  const float met = passing < 1 ? (1 - transmission) / (1 - passing) : 0.0f;
-  surface.coverage *= 1 - passing;
-  surface.bsdf.diffuse = color * ((1 - metallic) * met);
-  surface.bsdf.metal = color * metallic;
-  surface.bsdf.metallic = metallic;
+  // Transmission replaces the diffuse part of the dielectric alone (KHR_materials_transmission): of all light the
+  // colour's (1 - metallic) transmission passes, its (1 - metallic) (1 - transmission) is diffuse, its metallic part is
+  // metal. What passes is one number, the mean over the colour's channels; the others are shares of the light that does
+  // not pass.
+  const float dielectric = 1 - metallic;
+  const float passing = dielectric * material.transmission * mean_of_channels(color);
+  const float met = 1 - passing;
+  surface.coverage *= met;
+  if (met > 0) {
+    surface.bsdf.diffuse = color * (dielectric * ((1 - material.transmission) / met));
+    surface.bsdf.metal = color * (metallic / met);
+    surface.bsdf.metallic = metallic / met;
+  }
   surface.bsdf.roughness = std::clamp(material.roughness * metal_rough[1], 0.0f, 1.0f);
   surface.emission = material.emission * rgb(look_up(material.emission_texture, images, texcoords, true));
   return surface;

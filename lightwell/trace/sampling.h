@@ -11,10 +11,11 @@ namespace lightwell {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-/// What sources of light are chosen and ranked by.
+/// The mean of red, green and blue, by which sources of light are chosen and ranked.
 inline float mean_of_channels(const Vec3f& color) { return (color[0] + color[1] + color[2]) / 3; }
 
-/// Two unit vectors that make a right-handed frame with the unit vector z (Duff et al. 2017).
+/// A right-handed orthonormal frame around a unit normal, its z (Duff et al., Building an Orthonormal Basis, Revisited,
+/// JCGT 2017).
 struct Frame {
   Vec3f x, y, z;
 
@@ -35,10 +36,13 @@ Vec3f sample_disc(Random& random);
 /// Uniform barycentric coordinates of a triangle's second and third corner.
 Vec2f sample_triangle(Random& random);
 
-/// The power heuristic of Veach 1995 for one sample of each of two densities: the weight of the first.
+/// The power heuristic for one sample of each of two densities: the weight of the first (Veach and Guibas, Optimally
+/// Combining Sampling Techniques, SIGGRAPH 1995). Both weights sum to 1, also where a density's square leaves a float's
+/// range.
 inline float power_heuristic(float of_this, float of_other) {
-  const float a = of_this * of_this, b = of_other * of_other;
-  return a > 0 ? a / (a + b) : 0;
+  if (of_this <= 0) return 0;
+  const float ratio = of_other / of_this;
+  return 1 / (1 + ratio * ratio);
 }
 
 /// Chooses an index with a probability proportional to its weight.

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "lightwell/trace/photons.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -81,56 +80,6 @@ TEST(Lights, AConstantEnvironmentGivesPiTimesItsRadiance) {
   const Vec3f e = irradiance(world_of(scene)->lights(), {}, up, 20000);
   EXPECT_NEAR(e[0] / pi, 1, 0.03f);
   EXPECT_NEAR(e[2] / e[0], 3, 1e-4f);
-}
-
-/// A dark map with one bright pixel.
-RadianceImage bright_spot() {
-  RadianceImage map{16, 8, std::vector<float>(16 * 8 * 3, 0.01f)};
-  for (size_t c = 0; c < 3; c++) map.pixels[3 * (2 * 16 + 5) + c] = 100;
-  return map;
-}
-
-TEST(Lights, AnEnvironmentMapIsSampledByItsRadiance) {
-  Scene scene = floor_scene();
-  scene.environment.map = std::make_shared<const RadianceImage>(bright_spot());
-  scene.environment.radiance = Vec3f::filled(1);
-  const auto world = world_of(scene);
-  const EnvironmentLight& environment = world->lights().environment();
-  // The pixel (5, 2): azimuth u in [5, 6) / 16, polar angle in [2, 3) / 8 pi.
-  const float u = 5.5f / 16, v = 2.5f / 8;
-  const float angle = 2 * pi * (u - 0.5f);
-  const Vec3f towards{{std::sin(pi * v) * std::sin(angle), std::cos(pi * v), -std::sin(pi * v) * std::cos(angle)}};
-  EXPECT_FLOAT_EQ(environment.radiance(towards)[0], 100);
-  int bright = 0;
-  double integral = 0;
-  for (uint64_t i = 0; i < 10000; i++) {
-    Random random(2, i);
-    const EnvironmentLight::Sample sample = environment.sample(random);
-    bright += sample.radiance[0] > 1;
-    integral += static_cast<double>(sample.radiance[0] / sample.density) / 10000;
-  }
-  EXPECT_GT(bright, 9800);  // 100 * 0.12 sr of 12.1 + 0.126
-  // Density is proportional to radiance, so each sample is the integral: the mean over the sphere times 4 pi.
-  EXPECT_NEAR(integral / static_cast<double>(4 * pi * environment.mean()[0]), 1, 1e-3);
-}
-
-// Single bright pixels on black: near a pixel's edge rounding may take a direction for its black neighbour's, whose
-// radiance over density is 0 / 0.
-TEST(Lights, AnEnvironmentOfBlackAndBrightPixelsIsFinite) {
-  Scene scene = floor_scene();
-  RadianceImage map{4096, 64, std::vector<float>(4096 * 64 * 3)};
-  for (size_t pixel = 0; pixel < 4096 * 64; pixel += 2)
-    for (size_t c = 0; c < 3; c++) map.pixels[3 * pixel + c] = 1;
-  scene.environment.map = std::make_shared<const RadianceImage>(std::move(map));
-  scene.environment.radiance = Vec3f::filled(1);
-  const auto world = world_of(scene);
-  for (uint64_t i = 0; i < 100000; i++) {
-    Random random(5, i);
-    const Arrival arrival = world->lights().sample({}, random);
-    ASSERT_TRUE(is_finite(arrival.radiance)) << i;
-    ASSERT_GT(arrival.radiance[0], 0) << i;
-    ASSERT_TRUE(is_finite(world->lights().emit(random).flux)) << i;
-  }
 }
 
 // A lamp is never lost because nobody looked where it shines: one bright texel of 64 x 64, and a mask whose holes lie
@@ -213,43 +162,6 @@ TEST(Lights, CountConnectedPiecesAsLuminaires) {
   EXPECT_EQ(all[0].faces, (std::vector<uint32_t>{0, 1}));
   EXPECT_NEAR(all[1].area, 2, 1e-6f);
   EXPECT_NEAR(length(all[1].center - Vec3f{{3.5f, 3, 1}}), 0, 1e-5f);
-}
-
-// In a closed room of albedo rho a photon makes 1 / (1 - rho) flights on average, all of them the same flux.
-TEST(Photons, AreReflectedByTheAlbedo) {
-  const Scene scene = scene_of(room({{0, 0, 0}}, {{1, 1, 1}}), lambertian(0.75f, 1));
-  const auto world = world_of(scene);
-  const uint64_t count = 20000;
-  double flights = 0;
-  for (uint64_t i = 0; i < count; i++) {
-    Flight flight;
-    for (PhotonWalk walk(*world, 1, i); walk.next(flight);) {
-      flights++;
-      ASSERT_NEAR(flight.flux[0], 6 * pi, 1e-4f);
-      ASSERT_TRUE(std::isfinite(flight.length));
-      ASSERT_FALSE(flight.from_back);
-    }
-  }
-  // A geometric distribution of mean 4 has a standard deviation of 3.5: 1 % is 1.6 standard errors; 3 % are allowed.
-  EXPECT_NEAR(flights / static_cast<double>(count), 4, 0.12);
-}
-
-// 1 - (d / range)^4 of a lamp's photons fly further than d.
-TEST(Photons, EndAtTheRangeOfTheirLamp) {
-  Scene scene = floor_scene();
-  scene.lamps = {point_lamp({{0, 100, 0}}, Vec3f::filled(1), 2)};
-  const auto world = world_of(scene);
-  int beyond = 0;
-  const int count = 20000;
-  for (int i = 0; i < count; i++) {
-    Flight flight;
-    PhotonWalk walk(*world, 1, static_cast<uint64_t>(i));
-    ASSERT_TRUE(walk.next(flight));
-    ASSERT_LE(flight.length, 2);
-    beyond += flight.length > 1;
-    ASSERT_FALSE(walk.next(flight));
-  }
-  EXPECT_NEAR(beyond / static_cast<double>(count), 15.0 / 16, 0.006);  // 3.5 standard errors
 }
 
 }  // namespace
