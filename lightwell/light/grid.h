@@ -56,7 +56,9 @@ struct Moments {
   Vec3f irradiance(const Vec3f& n) const;
 };
 
-/// The irradiance vector grid of S08 and R09, in moments, with the validity of its nodes.
+/// The irradiance vector grid of S08 (Pacanowski et al., Efficient Streaming of 3D Scenes with Complex Geometry and
+/// Complex Lighting, Web3D 2008) and R09 (Pacanowski et al., Volumetric Vector-Based Representation for Indirect
+/// Illumination Caching, INRIA RR-6983, 2009), in moments, with the validity of its nodes.
 struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()

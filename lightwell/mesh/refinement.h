@@ -7,7 +7,7 @@
 
 namespace lightwell {
 
-/// Most faces a vertex may have to be split, so that a hostile stream cannot make single splits expensive.
+/// The most faces that a vertex which splits may have, so that a hostile stream cannot make single splits expensive.
 inline constexpr uint32_t max_fan = 64;
 
 /// A face at a vertex: its other two corners in order, and the place of this corner in the index buffer.

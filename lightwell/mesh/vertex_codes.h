@@ -21,13 +21,14 @@ struct Lattice {
   bool operator==(const Lattice&) const = default;
   float step() const { return power_of_two(exponent); }
   float value(int32_t code) const { return static_cast<float>(code) * step(); }
-  /// The nearest code, clamped to the limit; exact for values on the lattice. Anything that is no number gives zero.
+  /// The nearest code, clamped to the limit; exact for values on the lattice. NaN gives zero.
   int32_t code(float value) const;
   /// The code of a value that is known to be on the lattice and within the limit.
   int32_t exact_code(float value) const { return static_cast<int32_t>(value * power_of_two(-exponent)); }
 };
 
-/// A unit vector on the octahedral grid of 1023 x 1023 directions (10 bits an axis, Meyer et al. 2010), -511 ... 511.
+/// A unit vector on the octahedral grid of 1023 x 1023 directions (10 bits an axis; Meyer et al., On Floating-Point
+/// Normal Vectors, EGSR 2010), -511 ... 511.
 struct NormalCode {
   int16_t u = 0, v = 0;
 
@@ -51,7 +52,7 @@ using ColorCode = std::array<uint8_t, 4>;
 /// A linear colour in 65535ths.
 using Color16 = std::array<uint16_t, 4>;
 
-/// The nearest code of a linear colour. Channels are clamped to [0, 1]; what is no number counts as 0.
+/// The nearest code of a linear colour. Channels are clamped to [0, 1]; NaN counts as 0.
 ColorCode color_code(const Vec4f& color);
 ColorCode color_code(const Color16& color);
 /// The colour that a code stands for; it gives back its code.

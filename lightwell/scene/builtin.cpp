@@ -74,8 +74,9 @@ Mesh moved(Mesh mesh, float scale, const Vec3f& by) {
   return mesh;
 }
 
-/// The modified Cornell room of Figure 1 of S08: 4 m wide and high and 5 m deep, with a red and a green wall, a
-/// lamp in the ceiling and one object of 2 * along * around triangles.
+/// The modified Cornell room of Figure 1 of S08 (Pacanowski et al., Efficient Streaming of 3D Scenes with Complex
+/// Geometry and Complex Lighting, Web3D 2008): 4 m wide and high and 5 m deep, with a red and a green wall, a lamp in
+/// the ceiling and one object of 2 * along * around triangles.
 Document cornell_room(uint32_t along, uint32_t around, uint64_t seed) {
   const Box3f room{{{-2, 0, -2.5f}}, {{2, 4, 2.5f}}};
   const Walls walls = walls_of(room);

@@ -15,8 +15,8 @@ namespace {
 constexpr size_t max_instances = size_t(1) << 22;
 constexpr size_t max_faces = size_t(1) << 27;
 
-/// What a document may make of its bytes, so that a small file that uses the same data again and again does not fill
-/// the memory: a corner or an instance takes a byte or more, and some may be shared.
+/// The expansion that a document's bytes are allowed, so that a small file that uses the same data again and again does
+/// not fill the memory: a corner or an instance takes a byte or more, and some may be shared.
 struct Allowance {
   size_t corners = 0;
   size_t instances = 0;
@@ -29,7 +29,7 @@ struct Allowance {
   }
 };
 
-/// Counts what deserves one warning for all.
+/// Counts occurrences that share one warning.
 struct Tally {
   size_t count = 0;
   std::string first;
@@ -73,7 +73,7 @@ bool flattens(const Transform& m) {
   return !(std::abs(m.determinant()) > 1e-9 * sizes) || !(sizes < largest) || !(length(m.t) < largest);
 }
 
-/// Nodes that an animation moves, by themselves.
+/// The nodes that an animation moves directly.
 std::set<int> animated_nodes(const Json& json) {
   std::set<int> nodes;
   for (const Json& animation : member(json, "animations"))

@@ -7,13 +7,13 @@
 
 namespace lightwell {
 
-/// The scene that a glTF document shows: its default scene, or the first one. Warns in `report` of what a bake leaves
-/// out or cannot read (skins, morph targets, animated nodes, lines, points, images of unknown formats, flattened
-/// nodes).
+/// The scene that a glTF document shows: its default scene, or the first one. `report` gets a warning for everything
+/// that a bake leaves out or cannot read (skins, morph targets, animated nodes, lines, points, images of unknown
+/// formats, flattened nodes).
 Result<Scene> scene_from_document(Document document, std::string name, Report& report);
 
 /// Turns a document whose `up` axis is 'y' or 'z' and whose unit is `unit` metres into one in metres with y up, by a
-/// root node above all others. Changes nothing when it is so already.
+/// root node above all others. A document that is in metres with y up stays as it is.
 void reorient(Document& document, char up, float unit);
 
 }  // namespace lightwell

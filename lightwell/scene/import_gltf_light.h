@@ -7,14 +7,14 @@
 
 namespace lightwell {
 
-/// The lamp of KHR_lights_punctual that hangs on a node; none when it has none or does not shine.
+/// The lamp that KHR_lights_punctual attaches to a node; none when there is none or it gives no light.
 std::optional<Lamp> read_lamp(const Json& document, int node, const Transform& to_scene);
 
-/// The camera of a node; none when it has none, or one without perspective, which is warned of. Scales of the node are
-/// taken out, as glTF asks.
+/// The camera of a node; none when the node has none, or one without perspective, for which `report` gets a warning.
+/// The node's scale is removed, as glTF asks.
 std::optional<Camera> read_camera(const Json& document, int node, const Transform& to_scene, Report& report);
 
-/// scene.extras.lightwell.skyRadiance: a radiance that comes from all directions.
+/// The constant radiance from all directions that scene.extras.lightwell.skyRadiance asks for.
 Environment read_environment(const Json& scene);
 
 }  // namespace lightwell

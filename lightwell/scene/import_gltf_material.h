@@ -11,10 +11,11 @@ namespace lightwell {
 std::vector<Material> read_materials(const Json& document, Report& report);
 
 /// The image that a texture of a document is read from: EXT_texture_webp's, glTF's own, or another extension's where
-/// there is none of these; -1 without any.
+/// both are absent; -1 when there is none.
 int image_of(const Json& texture);
 
-/// The images of a document in its order, decoded. One that cannot be read is a white pixel and warned of.
+/// The images of a document in its order, decoded. An image that cannot be read becomes a white pixel, and `report`
+/// gets a warning.
 std::vector<Image> read_images(const Document& document, Report& report);
 
 }  // namespace lightwell

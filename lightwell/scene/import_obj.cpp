@@ -17,7 +17,7 @@
 namespace lightwell {
 namespace {
 
-/// What the library read, positions turned into vectors.
+/// The library's result, with positions as vectors.
 struct Obj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
@@ -34,8 +34,8 @@ bool in_range(const float* numbers, int count) {
   return std::all_of(numbers, numbers + count, [](float v) { return std::abs(v) <= farthest_position; });
 }
 
-/// What is wrong with an attribute that a corner refers to; nothing when it need not have one and has none. The library
-/// only makes negative indices absolute.
+/// The fault of an attribute that a corner refers to; none when the corner has no such attribute and needs none. The
+/// library only makes negative indices absolute.
 std::string fault_of(const std::vector<float>& values, int per_element, int index, bool required) {
   if (index == -1 && !required) return {};
   if (index < 0 || static_cast<size_t>(index) >= values.size() / static_cast<size_t>(per_element))
@@ -175,7 +175,7 @@ class WeldedMesh {
   std::unordered_map<std::array<int, 3>, uint32_t, CornerHash> vertices_;
 };
 
-/// Gives out glTF materials for the library's, each once with and once without textures.
+/// The glTF materials that stand for the library's, each at most once with and once without textures.
 class MaterialTable {
  public:
   MaterialTable(const Obj& obj, const ObjMaterialReader& reader, SceneBuilder& scene)

@@ -9,8 +9,8 @@ namespace lightwell {
 
 /// Turns an OBJ file into a glTF document: a node for each object or group, a primitive for each of its materials.
 /// Materials come from MTL files below `folder`: Kd, map_Kd, Ke, map_Ke and d; they become Lambertian and double-sided,
-/// as windings of OBJ files are not reliable. Kd and Ke are taken as linear, vertex colours as sRGB. Faces are cut into
-/// triangles; equal corners share a vertex; corners without a normal get the smooth one of their position. Points,
+/// since the winding of OBJ files is not reliable. Kd and Ke are taken as linear, vertex colours as sRGB. Faces are cut
+/// into triangles; equal corners share a vertex; corners without a normal get the smooth one of their position. Points,
 /// lines and curves are left out with a warning. Errors name the line, face or vertex at fault.
 Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report);
 

@@ -30,7 +30,7 @@ bool is_stl(Bytes file) {
   return fits || without_leading_space(text_of(file)).starts_with("solid");
 }
 
-/// What a file is that Lightwell knows of and does not read.
+/// The name of a file format that Lightwell recognises but does not read.
 std::optional<std::string> unsupported_format(Bytes file) {
   using namespace std::string_view_literals;
   constexpr std::pair<std::string_view, const char*> beginnings[] = {

@@ -35,7 +35,7 @@ Vec3f clamped(const float (&rgb)[3], float most) {
   return {{clamped(rgb[0], most), clamped(rgb[1], most), clamped(rgb[2], most)}};
 }
 
-/// The parts of a material that would be seen and are not read, by their names in the file.
+/// The visible properties of a material that are not read, by their names in the file.
 std::vector<std::string> unread(const tinyobj::material_t& material) {
   constexpr int glossy = 2;  // illum from here on asks for highlights
   std::vector<std::string> names;

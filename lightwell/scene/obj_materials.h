@@ -12,7 +12,8 @@
 
 namespace lightwell {
 
-/// Reads the MTL files that an OBJ file names, from the OBJ file's folder and below. What cannot be read is warned of.
+/// Reads the MTL files that an OBJ file names, from the OBJ file's folder and below. Files that cannot be read cause a
+/// warning.
 class ObjMaterialReader : public tinyobj::MaterialReader {
  public:
   ObjMaterialReader(std::filesystem::path folder, Report& report) : folder_(std::move(folder)), report_(report) {}
@@ -20,7 +21,7 @@ class ObjMaterialReader : public tinyobj::MaterialReader {
   /// Called by the library with the rest of an mtllib line.
   bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* indices, std::string* warning, std::string* error) override;
-  /// The glTF material for one that was read; textures are looked for beside its MTL file.
+  /// The glTF material that stands for a material of an MTL file; its textures are looked for beside that file.
   int add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index, bool has_texcoords) const;
 
  private:

@@ -34,7 +34,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// The next line of a text, joined with those that a backslash continues it by. `lines` counts them.
+/// The next line of a text, joined with the lines that continue it after a backslash. `lines` counts them.
 std::string take_line(std::string_view& text, size_t& lines) {
   std::string line;
   while (!text.empty()) {
@@ -87,7 +87,7 @@ bool is_corner(std::string_view word) {
   return !has_normal || is_index(word.substr(second + 1));
 }
 
-/// Why the corners of a face cannot be read; empty when they can.
+/// The reason why the corners of a face cannot be read; empty when they can.
 std::string fault_of_face(std::string_view corners) {
   size_t count = 0;
   for (std::string_view word = take_word(corners); !word.empty(); word = take_word(corners), count++) {
@@ -119,7 +119,7 @@ bool is_left_out_with_warning(std::string_view keyword) {
   return std::find(std::begin(keywords), std::end(keywords), keyword) != std::end(keywords);
 }
 
-/// One statement as the library is to see it, or what is wrong with it.
+/// One statement in the form that the library reads correctly, or its fault.
 Result<std::string> checked_statement(std::string_view line, Report& report) {
   std::string_view rest = line;
   const std::string_view keyword = take_word(rest);

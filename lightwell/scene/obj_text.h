@@ -8,14 +8,14 @@
 
 namespace lightwell {
 
-/// True when the first statement of a text is one of OBJ.
+/// True when the first statement of a text is an OBJ statement.
 bool is_obj(Bytes bytes);
 
-/// The text of an OBJ file as tinyobjloader reads it well. That library takes words that are no numbers for zeros,
-/// counts a face's corners in eight bits, ends names at spaces, knows no continued lines, and lets a short line reserve
-/// much memory. So every line is checked here first, errors naming it; statements that Lightwell does not use are left
-/// out (points, lines and curves with a warning), continued lines are joined, and spaces in names become underscores.
-/// Lines keep their numbers.
+/// The text of an OBJ file in a form that tinyobjloader reads correctly. That library takes words that are not numbers
+/// for zeros, counts a face's corners in eight bits, ends names at spaces, knows no continued lines, and lets a short
+/// line reserve much memory. So every line is checked here first, and an error names the line; statements that
+/// Lightwell does not use are left out (points, lines and curves with a warning), continued lines are joined, and
+/// spaces in names become underscores. Lines keep their numbers.
 Result<std::string> checked_obj_text(Bytes file, Report& report);
 
 /// The text of an MTL file with spaces in the materials' names replaced in the same way.

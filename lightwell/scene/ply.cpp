@@ -15,7 +15,7 @@
 namespace lightwell {
 namespace {
 
-/// What a property of a vertex tells, in the order of a row of numbers.
+/// The meaning of a vertex property, in the order of a row of numbers.
 enum Role { px, py, pz, nx, ny, nz, red, green, blue, alpha, tex_s, tex_t, role_count };
 
 using Row = std::array<double, role_count>;
@@ -75,7 +75,7 @@ struct Polygons {
   std::vector<size_t> ends;       ///< where each face's corners end
 };
 
-/// Which attributes the properties of the vertices make up.
+/// The attributes that the vertices' properties form.
 struct VertexLayout {
   std::vector<std::optional<Role>> roles;  ///< of each property
   std::vector<double> scales;
@@ -234,7 +234,7 @@ Result<Mesh> triangulated(Polygons polygons, Report& report) {
   return mesh;
 }
 
-/// Names what a file has and nobody reads, so that a scan without its texture is no riddle.
+/// Warns of properties that are not read, so that a scan without its texture is explained.
 void warn_of_unread(const PlyHeader& header, Report& report) {
   std::string names;
   for (const PlyElement& element : header.elements) {

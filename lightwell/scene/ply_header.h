@@ -29,11 +29,12 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-/// What a PLY file says of itself (Turk, "The PLY Polygon File Format", 1994).
+/// The header of a PLY file: the format of its data and the elements that follow (Turk, "The PLY Polygon File Format",
+/// 1994).
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  size_t size = 0;  ///< bytes of the header: where the data begin
+  size_t size = 0;  ///< length of the header in bytes: the data begin there
 };
 
 /// Reads a header whose lines end in LF, CRLF or CR. Fails when a line is not understood, or when the file is too short

@@ -8,7 +8,7 @@ using Point = Vec<double, 2>;
 
 constexpr size_t most_corners_clipped = 256;
 
-/// Newell's normal: exact for plane polygons, the mean for others.
+/// Newell's normal: exact for planar polygons, the mean for others.
 Vec3d polygon_normal(std::span<const Vec3f> points) {
   Vec3d sum{};
   const Vec3d origin = points[0].cast<double>();

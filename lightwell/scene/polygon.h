@@ -8,9 +8,10 @@
 
 namespace lightwell {
 
-/// Cuts a polygon of n points, nearly plane, into n - 2 triangles and appends them, as indices into `points`, with the
-/// polygon's winding. A polygon with dents is cut by clipping ears (Meisters 1975); one of more than 256 corners is
-/// taken as convex, since clipping takes n^2 steps. Fewer than three points give nothing.
+/// Cuts a polygon of n points, nearly planar, into n - 2 triangles and appends them, as indices into `points`, with the
+/// polygon's winding. A concave polygon is cut by ear clipping (Meisters, Polygons Have Ears, American Mathematical
+/// Monthly 1975); one of more than 256 corners is treated as convex, since clipping takes n^2 steps. Fewer than three
+/// points give nothing.
 void triangulate(std::span<const Vec3f> points, std::vector<Face>& triangles);
 
 }  // namespace lightwell

@@ -12,7 +12,7 @@
 
 namespace lightwell {
 
-/// How a material reads an image. Units: texture coordinates, v downwards as in glTF.
+/// How a material reads an image, in texture coordinates with v downwards as in glTF.
 struct TextureLookup {
   enum class Wrap { repeat, mirror, clamp };
 
@@ -25,7 +25,7 @@ struct TextureLookup {
   std::array<float, 3> row_v{0, 1, 0};
 };
 
-/// A glTF material, as far as light transport asks for it. Colours are linear.
+/// The part of a glTF material that light transport uses. Colours are linear.
 struct Material {
   enum class Alpha { opaque, mask, blend };
 
@@ -83,7 +83,7 @@ struct Camera {
   int height = 0;
 };
 
-/// What a ray meets that leaves the scene.
+/// The radiance that arrives from outside the scene, where a ray meets no surface.
 struct Environment {
   Vec3f radiance{};                          ///< constant over all directions; scales the map when there is one
   std::shared_ptr<const RadianceImage> map;  ///< latitude-longitude: u = 0.5 + atan2(x, -z)/2pi, v = acos(y)/pi
@@ -97,12 +97,12 @@ struct Scene {
   std::vector<Primitive> primitives;
   std::vector<Instance> instances;
   std::vector<Material> materials;
-  std::vector<Image> images;  ///< decoded; an image that could not be read is 1x1 white and was warned of
+  std::vector<Image> images;  ///< decoded; an image that could not be read is one white pixel
   std::vector<Lamp> lamps;
   std::vector<Camera> cameras;
   Environment environment;
 
-  /// Of all instances, in scene space.
+  /// The box of all instances, in scene space.
   Box3f bounds() const;
   const Material& material_of(const Primitive& primitive) const;
 };
@@ -114,8 +114,8 @@ struct ImportOptions {
 };
 
 /// Reads a scene: a glTF 2.0 or GLB, OBJ or PLY file, each possibly gzipped, recognised by content; or a built-in scene
-/// by name, see builtin_scenes(). Nothing outside the file's folder is read. What is unsupported is warned of in
-/// `report`. Errors name file, element and reason.
+/// by name, see builtin_scenes(). Nothing outside the file's folder is read. `report` gets a warning for everything
+/// unsupported. Errors name file, element and reason.
 Result<Scene> load_scene(const std::string& path, const ImportOptions& options, Report& report);
 
 }  // namespace lightwell

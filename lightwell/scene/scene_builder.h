@@ -20,7 +20,7 @@ struct Lambertian {
 
 Json lambertian_json(const Lambertian& material);
 
-/// Puts a glTF document together from meshes and materials, one node an object.
+/// Builds a glTF document from meshes and materials, one node an object.
 class SceneBuilder {
  public:
   struct Part {

@@ -10,7 +10,7 @@
 
 namespace lightwell {
 
-/// What an image may hold at most; checked before memory is asked for.
+/// The largest image that is accepted; checked before memory is allocated.
 constexpr uint64_t max_image_side = 16384;
 constexpr uint64_t max_image_pixels = uint64_t(1) << 28;
 
@@ -22,7 +22,7 @@ Result<void> check_image_size(uint64_t width, uint64_t height);
 /// ignored, as glTF asks (section 3.8.3). Errors name the format and the reason; any bytes are safe.
 Result<Image> read_image_file(Bytes file);
 
-/// The readers of one format each, behind read_image_file.
+/// The readers of single formats, among which read_image_file chooses.
 Result<Image> read_png(Bytes file);
 Result<Image> read_jpeg(Bytes file);
 Result<Image> read_webp(Bytes file);

@@ -12,7 +12,7 @@ namespace lightwell {
 /// The image files that a pack may hold. The numbers stand in texture streams.
 enum class ImageFormat : uint8_t { png = 0, jpeg = 1, webp = 2 };
 
-/// The MIME type, as glTF's image.mimeType has it.
+/// The MIME type for glTF's image.mimeType.
 constexpr std::string_view mime_type(ImageFormat format) {
   switch (format) {
     case ImageFormat::png: return "image/png";
@@ -22,7 +22,7 @@ constexpr std::string_view mime_type(ImageFormat format) {
   return "";
 }
 
-/// The format that a file's first bytes tell; none when it is no image that Lightwell knows.
+/// The format that a file's first bytes announce; none when Lightwell does not know it.
 inline std::optional<ImageFormat> image_format(Bytes file) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   if (text.starts_with("\x89PNG\r\n\x1a\n")) return ImageFormat::png;

@@ -37,7 +37,7 @@ struct ErrorHandler {
   std::longjmp(handler->target, 1);
 }
 
-// libjpeg makes up what a short file lacks, and only warns. Its other warnings tell of oddities that decode well.
+// libjpeg fills in what a truncated file lacks and only warns. Its other warnings are about oddities that decode well.
 void on_message(j_common_ptr codec, int level) {
   const int code = codec->err->msg_code;
   if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER))

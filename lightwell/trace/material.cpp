@@ -17,13 +17,14 @@ float ggx(float cosine, float alpha) {
   return a2 / (pi * d * d);
 }
 
-/// Smith's Lambda: facets that are hidden for each that is seen.
+/// Smith's Lambda: the number of facets that are hidden for each that is seen.
 float smith_lambda(float cosine, float alpha) {
   const float c2 = cosine * cosine;
   return (std::sqrt(1 + alpha * alpha * (1 - c2) / c2) - 1) / 2;
 }
 
-/// A facet's normal with the density of those that `out` sees (local frame, z is the normal); Heitz 2018.
+/// A facet's normal with the density of those that `out` sees (local frame, z is the normal); Heitz,
+/// Sampling the GGX Distribution of Visible Normals, JCGT 2018.
 Vec3f sample_visible_facet(const Vec3f& out, float alpha, Random& random) {
   const Vec3f stretched = normalized(Vec3f{{alpha * out[0], alpha * out[1], out[2]}});
   const float across = stretched[0] * stretched[0] + stretched[1] * stretched[1];

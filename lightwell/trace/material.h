@@ -6,10 +6,11 @@
 
 namespace lightwell {
 
-/// How a point of a surface reflects: a Lambertian part and, for metals, a rough GGX lobe (Walter et al. 2007) with
-/// Schlick's Fresnel term, in the metallic share that glTF gives each of them. Reflects no more than arrives.
-/// The weak gloss of dielectrics is left out: their albedo is all diffuse, as KHR_materials_specular 0 has it exactly.
-/// Directions are unit and point away from the surface, both on the normal's side; elsewhere the value is 0.
+/// The reflection of a point of a surface: a Lambertian part and, for metals, a rough GGX lobe (Walter et al.,
+/// Microfacet Models for Refraction through Rough Surfaces, EGSR 2007) with Schlick's Fresnel term, in the metallic
+/// share that glTF gives each of them. Reflects no more than arrives. The weak gloss of dielectrics is left out: their
+/// albedo is all diffuse, as KHR_materials_specular 0 has it exactly. Directions are unit and point away from the
+/// surface, both on the normal's side; elsewhere the value is 0.
 struct Bsdf {
   Vec3f diffuse{};      ///< albedo of the Lambertian part
   Vec3f metal{};        ///< reflectance of the metallic part at normal incidence
@@ -34,15 +35,16 @@ struct Bsdf {
   float diffuse_share() const;
 };
 
-/// What a ray finds at a point of a surface.
+/// A point of a surface as a ray finds it.
 struct Surface {
-  Bsdf bsdf;
+  Bsdf bsdf;           ///< of the light that does not pass straight through
   Vec3f emission{};    ///< radiance of the front, W/m2/sr
   float coverage = 1;  ///< the share of light that does not pass straight through (alpha, transmission)
 };
 
 /// The material at texture coordinates (two sets, as the mesh has them) under a vertex colour.
-/// Light that KHR_materials_transmission lets through goes straight on, as through a thin pane.
+/// Light that KHR_materials_transmission lets through goes straight on, as through a thin pane, instead of being
+/// reflected by the dielectric's diffuse part (docs/decisions/018-transmission.md).
 Surface surface_of(const Material& material, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
                    const Vec4f& vertex_color);
 
