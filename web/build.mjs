@@ -9,8 +9,8 @@ import { bundle } from './bundle.mjs';
 /** Properties that three.js keeps to itself: the page holds all of three.js, so that nothing else needs their names. */
 const PRIVATE_PROPERTIES = /^_[a-z]/;
 
-/** What a browser's extension for developers of three.js would look for. */
-const HOOKS = { __THREE_DEVTOOLS__: 'undefined' };
+/** What three.js asks its surroundings for and the page does not use: a browser's extension for developers, layers of a headset. */
+const ABSENT = { __THREE_DEVTOOLS__: 'undefined', XRWebGLBinding: 'undefined' };
 
 process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });
@@ -25,7 +25,7 @@ const bundles = await Promise.all([
   bundle({
     entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' },
     mangleProps: PRIVATE_PROPERTIES,
-    define: HOOKS,
+    define: ABSENT,
   }),
 ]);
 await Promise.all(bundles.flat().map(({ path, text }) => writeFile(path, text)));

@@ -26,7 +26,7 @@ test('indirect light looks as in lightwell render', async (t) => {
   const script = await scriptPage('tests/e2e/pages/lambert.ts');
   const server = await forTest(t, startStaticServer({ ...script, ...CLIENT, '/pack.lw.glb': PACK }));
   const { page, errors } = await forTest(t, openPage(browser));
-  await page.goto(server.url);
+  await page.goto(`${server.url}?light=indirect`);
   await complete(page);
   const url = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
   writeFileSync(`${folder}/page.png`, Buffer.from(url.split(',')[1], 'base64'));

@@ -9,11 +9,14 @@ import {
   Vector3,
 } from 'three';
 import type { LampDefinition } from './extensions.js';
+import { installLightChunks } from './shader_chunks.js';
 
 export type Lamp = SpotLight | PointLight | DirectionalLight;
 
 /** Half the opening of the cone that stands for a one-sided lamp; a shadow map cannot see a whole half-space. */
 const RECTANGLE_ANGLE = (85 * Math.PI) / 180;
+/** Marks the lights that fade as in KHR_lights_punctual: see shaders/punctual_lamps.glsl. */
+const KHRONOS_DECAY = -2;
 const MOST_SHADOWS = 4;
 const SHADOW_MAP_SIZE = 2048;
 /** Texture units that WebGL2 guarantees a fragment shader. */
@@ -24,10 +27,12 @@ const SHARED_UNITS = 3;
 /**
  * three.js lights for a pack's lamps, in the pack's space. A rectangle becomes a spot light with a soft edge at 85 degrees,
  * a sphere a point light, each with the irradiance that the lamp has on its axis at the middle of the scene: three.js has no
- * area light with a shadow (docs/decisions/006-lamps-in-three.md). The strongest cast shadows: at most four, and no more
+ * area light with a shadow (docs/decisions/006-lamps-in-three.md). Points and spots fade as the bake has them
+ * (docs/decisions/016-punctual-lamps.md). The strongest cast shadows: at most four, and no more
  * than leave `materialMaps` texture units for the materials.
  */
 export function createLamps(definitions: LampDefinition[], bounds: Box3, materialMaps: number): Lamp[] {
+  installLightChunks();
   const shadows = Math.max(0, Math.min(MOST_SHADOWS, TEXTURE_UNITS - SHARED_UNITS - materialMaps));
   const sphere = bounds.getBoundingSphere(new Sphere());
   const lamps = definitions.flatMap(sides).map((definition) => ({ light: createLamp(definition, sphere), power: irradianceAt(definition, sphere) }));
@@ -55,7 +60,7 @@ function createLamp(definition: LampDefinition, scene: Sphere): Lamp {
     }
     case 'spot': {
       const { innerConeAngle: inner = 0, outerConeAngle: outer = Math.PI / 4 } = definition;
-      const spot = new SpotLight(undefined, 1, definition.range ?? 0, outer, 1 - inner / outer);
+      const spot = new SpotLight(undefined, 1, definition.range ?? 0, outer, 1 - inner / outer, KHRONOS_DECAY);
       spot.position.copy(center);
       aim(spot, center.clone().add(normal));
       return colored(spot, definition.intensity);
@@ -68,7 +73,7 @@ function createLamp(definition: LampDefinition, scene: Sphere): Lamp {
     }
     case 'sphere':
     case 'point': {
-      const point = new PointLight(undefined, 1, definition.range ?? 0);
+      const point = new PointLight(undefined, 1, definition.range ?? 0, KHRONOS_DECAY);
       point.position.copy(center);
       return definition.kind === 'point'
         ? colored(point, definition.intensity)
