@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lightwell's light lookup. It stands in for three.js's chunk lightprobes_pars_fragment (0.187) with the same functions, so
-// that three.js's own grids look as before and Lightwell's are recognised beside them.
+// Lightwell's light lookup. It replaces three.js's chunk lightprobes_pars_fragment (0.187) by the same functions, so that
+// three.js's own grids look as before and Lightwell's are recognised beside them.
 //
 // A grid of Lightwell's stands anywhere in the world. The renderer hands three vectors of a grid to the shader and no more; for
 // Lightwell's they mean
@@ -68,7 +68,7 @@ bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, ve
 
 }
 
-// The light at the fragment for every direction. Kept from the irradiance to the reflection, which so costs no fetch more.
+// The light at the fragment for every direction. It is kept from the irradiance for the reflection, which then costs no fetches.
 struct LightProbeSample {
 	vec3 c[ 9 ];     // coefficients of the spherical harmonics
 	float weight;    // by which they are to be divided

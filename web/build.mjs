@@ -9,8 +9,10 @@ import { bundle } from './bundle.mjs';
 /** Properties that three.js keeps to itself: the page holds all of three.js, so that nothing else needs their names. */
 const PRIVATE_PROPERTIES = /^_[a-z]/;
 
-/** What three.js asks its surroundings for and the page does not use: a browser's extension for developers, layers of a headset. */
-const ABSENT = { __THREE_DEVTOOLS__: 'undefined', XRWebGLBinding: 'undefined' };
+/** What three.js uses where it is there and the page needs not: a browser's extension for developers, videos, layers of a headset. */
+const ABSENT = Object.fromEntries(
+  ['__THREE_DEVTOOLS__', 'HTMLVideoElement', 'VideoFrame', 'XRWebGLBinding'].map((name) => [name, 'undefined']),
+);
 
 process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });

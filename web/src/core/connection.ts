@@ -9,7 +9,7 @@ export interface ConnectionOptions {
   strategy?: Strategy;
 }
 
-/** A two-way line to a pack session, in a worker or, where the page may start none, in the page itself. */
+/** The two-way connection to a pack session, which runs in a worker or, where the page may start none, in the page itself. */
 interface Port {
   postMessage(message: Command, transfer?: Transferable[]): void;
   close(): void;

@@ -90,7 +90,7 @@ export interface Share {
   total: number;
 }
 
-/** How far a pack has come, and how. */
+/** How much of a pack has arrived, and how fast the rest comes. */
 export interface Progress {
   /** Bytes of the file. */
   bytes: Share;
@@ -116,7 +116,7 @@ export interface ConnectionEvent {
   state: 'streaming' | 'waiting' | 'complete';
 }
 
-/** No more will come. What was handed over stays good, unless the file was replaced by another. */
+/** Nothing more will come. What was handed over stays valid, unless the file was replaced by another. */
 export interface FailureEvent {
   type: 'failure';
   reason: 'unreadable' | 'replaced' | 'refused';

@@ -6,11 +6,11 @@ import { WasmClient } from './wasm_client.js';
 
 /** Decoding holds the thread no longer than this, in milliseconds. */
 const SLICE = 4;
-/** Updates that the page has not handed to the GPU yet: no more is taken from the client beyond this, in bytes. */
+/** The client is asked for no more updates while this many bytes of them have not reached the GPU yet. */
 const IN_FLIGHT = 4 << 20;
 /** An update of a mesh is cut into pieces of about this size, in bytes. */
 const PIECE = 64 << 10;
-/** Progress is told at most this often, in milliseconds. */
+/** Least time between two progress events, in milliseconds. */
 const PROGRESS_INTERVAL = 100;
 
 const FORBIDDEN = 'the server does not let pages of other sites read it (no Access-Control-Allow-Origin)';
@@ -161,8 +161,9 @@ export class PackSession {
   }
 
   /**
-   * Whether the server is there but lets no page of this origin read the file. Browsers do not tell that from a broken line. It is
-   * asked for a byte as the client asks for bytes: to HEAD it may give other rights. Without them a range cannot be asked for.
+   * Whether the server is there but lets no page of this origin read the file, which browsers report as they report a broken
+   * connection. The first request shows that the server is there: it needs no permission, and may not ask for a range. The second
+   * asks for a byte as the client does, since a server may treat HEAD differently.
    */
   async #isForbidden(): Promise<boolean> {
     if (this.#answered || new URL(this.#url).origin === origin) return false;

@@ -30,7 +30,7 @@ const COMPONENTS: Component[] = ['i8', 'u8', 'i16', 'u16', 'f32'];
 const IMAGE_TYPES = ['image/png', 'image/jpeg', 'image/webp'];
 const FAILURES = ['unreadable', 'replaced', 'refused'] as const;
 
-/** What the client wants of its transport. */
+/** What the client asks of its transport. */
 export type Action =
   | { type: 'ask'; request: number; first: number; last: number }
   | { type: 'cancel'; request: number };

@@ -23,10 +23,10 @@ const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 const STRATEGIES = ['interleave', 'geometry', 'light'] as const;
 const TONES = ['neutral', 'none'] as const;
 const DEFAULT_LABEL = '3D scene. Arrow keys turn it, shift and arrow keys move it, plus and minus zoom, Home returns.';
-/** Pause before a file that was replaced while it was read is read anew, in milliseconds; doubled each time, up to the second. */
+/** Pause before a file that was replaced is read anew, in milliseconds; it doubles with each time, up to the longest. */
 const REPLACED_PAUSE = 1000;
 const LONGEST_REPLACED_PAUSE = 60_000;
-/** The view is told to the stream when it has rested for so long, in milliseconds. */
+/** The stream is told the view once that has rested for so long, in milliseconds. */
 const VIEW_REST = 150;
 
 const STYLE = `
@@ -172,7 +172,7 @@ export class LightwellView extends HTMLElement {
     this.#open();
   }
 
-  /** Null where the browser cannot: said a turn later, so that the page can listen. */
+  /** Null where the browser cannot draw; the error event follows a turn later, when the page can listen. */
   #createStage(): Stage | null {
     try {
       return new Stage();
@@ -341,7 +341,7 @@ export class LightwellView extends HTMLElement {
     this.#pauseOrResume();
   }
 
-  /** What nobody is about to see is not asked for. */
+  /** Asks for nothing that is not about to be seen. */
   #pauseOrResume(): void {
     if (this.#paused || !this.#near) this.#pack?.pause();
     else this.#pack?.resume();

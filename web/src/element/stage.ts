@@ -62,7 +62,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Fits the canvas to its place on the page, and the view to the canvas: what is seen across does not shrink on a phone. */
+  /** Fits the canvas to its place on the page and the field of view to the canvas: a narrow one shows no less across. */
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO));
@@ -91,7 +91,7 @@ export class Stage {
     if (this.#running) this.#drawing.request();
   }
 
-  /** The next frame shows what moved in its shadows too; at most twice a second. */
+  /** Asks for a frame with new shadows, which are drawn at most twice a second. */
   invalidateShadows(): void {
     clearTimeout(this.#shadowTimer);
     const wait = this.#shadowTime + SHADOW_INTERVAL - performance.now();
@@ -104,7 +104,7 @@ export class Stage {
     this.invalidateSeldom();
   }
 
-  /** While stopped no frame is drawn but by `draw` and `resize`; what was asked for meanwhile is drawn at the start. */
+  /** While stopped, only `draw` and `resize` draw; a frame is drawn at the start, whatever was asked for meanwhile. */
   setRunning(running: boolean): void {
     this.#running = running;
     if (running) this.invalidate();

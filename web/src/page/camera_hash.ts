@@ -6,7 +6,7 @@ import type { View } from '../element/orbit.js';
 export interface Hash {
   /** The pack that it named at first. */
   readonly wanted: string | null;
-  /** The view that it named at first, of that pack. */
+  /** The view of that pack that it named at first. */
   readonly view: View | null;
   /** Names the pack that is shown from now on, in the given view or else in its own. */
   setPack(name: string, view: View | null): void;

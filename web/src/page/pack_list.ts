@@ -3,7 +3,7 @@ import type { LightwellView } from '../element/lightwell_view.js';
 import type { View } from '../element/orbit.js';
 import type { Hash } from './camera_hash.js';
 
-/** A line of /packs.json. */
+/** An entry of /packs.json. */
 interface Pack {
   name: string;
   url: string;

@@ -2,8 +2,8 @@
 import { BufferGeometry, Camera, Mesh, MeshBasicMaterial, Scene, type WebGLRenderer, WebGLRenderTarget } from 'three';
 
 /**
- * Hands what has changed in geometries over to the GPU without drawing it. three.js does that only for what it draws: so each has
- * a double of the same buffers, of which no face is drawn, into a picture of one pixel.
+ * Hands what has changed in geometries over to the GPU without drawing it. three.js does that only for what it draws: so each
+ * geometry has a double that shares its buffers, and no face of that is drawn into a picture of one pixel.
  */
 export class HandOver {
   readonly #renderer: WebGLRenderer;

@@ -78,7 +78,7 @@ export class LightRefinement implements Refinement {
     return state;
   }
 
-  /** Exchanges the textures; each keeps what it shows for the day on which the GPU loses it. */
+  /** Swaps the textures. Each keeps its texels in memory, since the GPU may lose them. */
   #show(state: Data3DTexture): void {
     const shown = this.#hidden;
     this.#hidden = this.#light.texture;

@@ -7,7 +7,7 @@ import { messageOf, PackError, reasonOf } from './pack_error.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
 
 export interface LoaderOptions extends ConnectionOptions, SceneOptions {
-  /** Told how the connection is until the scene is there, which says so itself from then on. */
+  /** Called with the connection's state until the scene is there, which has an event for it. */
   onConnection?: (state: ConnectionEvent['state']) => void;
 }
 
@@ -65,7 +65,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
       .finally(() => this.manager.itemEnd(item));
   }
 
-  /** The scene's events begin after `onLoad`, so that nobody misses one. */
+  /** The scene's events begin after `onLoad`, so that none is missed. */
   async #load(
     url: string,
     signal: AbortSignal,
@@ -144,7 +144,7 @@ class Inbox {
     });
   }
 
-  /** Gives away what is left, and from now on everything as it comes. */
+  /** Passes on what is left, and from then on every event as it comes. */
   forward(listener: (event: PackEvent) => void): void {
     this.#events.splice(0).forEach(reporting(listener));
     this.#connection.onEvent = listener;

@@ -21,17 +21,17 @@ const COMPONENT_ARRAYS = {
   f32: Float32Array,
 } as const;
 
-/** Bytes of one attribute that came and that the GPU does not have yet: elements [begin, end) of its array. */
+/** Elements [begin, end) of an attribute's array that have arrived and that the GPU does not have yet. */
 interface Fresh {
   attribute: BufferAttribute;
   begin: number;
   end: number;
 }
 
-/** A picture with more faces than this times those of the last one is shown in between. */
+/** A step multiplies the number of faces by this at most. */
 const GROWTH = 2;
 
-/** The way to the mesh's next state: vertices, index ranges and, once it is whole, the number of faces. */
+/** What leads to the mesh's next state: vertices, ranges of indices and, once the batch is whole, the number of faces. */
 interface Batch {
   fresh: Fresh[];
   ranges: RangeEvent[];
@@ -124,7 +124,7 @@ export class MeshRefinement implements Refinement {
     this.#openBatch().fresh.push({ attribute, begin, end: begin + event.data.length / BYTES_PER_ELEMENT });
   }
 
-  /** Consumed as they come, so that a batch of any size comes whole; vertices keep the sender from running ahead. */
+  /** Indices count as consumed at once, so that any batch can arrive whole; vertices keep the sender from running ahead. */
   #receiveIndices(event: RangeEvent): void {
     this.#consumed += event.data.length;
     this.#openBatch().ranges.push(event);

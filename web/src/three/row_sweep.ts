@@ -8,7 +8,7 @@ export interface Strip {
   rows: number;
 }
 
-/** The way through the rows of a picture, or of a stack of them, in strips that frames have room for. */
+/** Goes through the rows of a picture, or of a stack of pictures, in strips that fit into what frames have left. */
 export class RowSweep {
   readonly #rowBytes: number;
   readonly #height: number;

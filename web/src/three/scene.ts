@@ -170,12 +170,12 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     disposeAll(this.opening.gltf.scene);
   }
 
-  /** What was on its way to a GPU that lost everything goes there again. */
+  /** Begins again with what was on its way to a GPU that has lost everything. */
   readonly #restart = (): void => {
     for (const refinement of this.#refinements()) refinement.restart();
   };
 
-  /** What the connection says; the loader passes it on. */
+  /** Takes an event of the connection, which the loader passes on. */
   receive(event: PackEvent): void {
     switch (event.type) {
       case 'opening':
@@ -257,7 +257,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     yield* this.#images.values();
   }
 
-  /** Bytes that nothing in the scene shows are done with: the sender would wait for them. */
+  /** Bytes that nothing in the scene shows count as consumed: otherwise the sender would wait for them. */
   #refineBy<Event extends UpdateEvent>(
     event: Event,
     refinement: { receive(event: Event): void | Promise<void> } | undefined,

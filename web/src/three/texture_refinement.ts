@@ -95,7 +95,7 @@ export class TextureRefinement implements Refinement {
     for (const texture of this.#textures) texture.dispose();
   }
 
-  /** Keeps the image for the day on which the GPU loses it. */
+  /** Keeps the image in memory, since the GPU may lose it. */
   #finish(): void {
     (this.#textures[0]!.image as ImageBitmap).close();
     for (const texture of this.#textures) texture.image = this.#image;

@@ -4,9 +4,9 @@ import type { LightGridDefinition } from './extensions.js';
 import type { LightwellLight } from './light.js';
 import type { Opening, ProgressiveImage, ProgressivePrimitive } from './opening.js';
 
-/** What is out of sight comes late, not never: it counts for so much of what it would in sight. */
+/** Weight of what is out of sight, relative to the same in sight: it comes late, not never. */
 const OUT_OF_SIGHT = 0.01;
-/** A grid is looked at in so many places an axis. */
+/** Number of places on each axis at which a grid is tested for being in sight. */
 const PLACES = 5;
 
 export type StreamWeight = [stream: number, weight: number];
