@@ -119,7 +119,8 @@ class Encoder {
       coder_.splits(writer, level_->fan_size(level_->first_of_point(sweep_.point())), again_, here);
       again_ = here;
       if (here) break;
-      LW_ASSERT(sweep_.advance());
+      const bool more = sweep_.advance();
+      LW_ASSERT(more);
     }
     for (uint32_t v = first; v < end; v++) {
       add_vertex(writer, v, parent, v == first);
@@ -137,7 +138,8 @@ class Encoder {
     for (; next_face_ < refined && mesh_.appears_with[next_face_] == v; next_face_++)
       vertex.faces.push_back(new_face(v));
     set_attributes(vertex, v);
-    LW_ASSERT(coder_.new_vertex(writer, *level_, parent_point, begins_point, vertex));
+    const bool coded = coder_.new_vertex(writer, *level_, parent_point, begins_point, vertex);
+    LW_ASSERT(coded);
     level_->add(vertex, begins_point);
     for (const NewFace& face : vertex.faces)
       for (uint32_t k = 0; k < 3; k++) finals_.push_back(final_corner(face.source, k));
