@@ -21,7 +21,7 @@ struct Points {
   uint32_t count() const { return static_cast<uint32_t>(first.size() - 1); }
 };
 
-/// In which order the points of a mesh collapse onto neighbours, with all their vertices and without moving any.
+/// The order in which the points of a mesh collapse onto neighbours, with all their vertices and without moving any.
 struct CollapseOrder {
   /// Collapses that do not depend on each other: no two removed points share a face, no target is removed.
   struct Round {

@@ -19,7 +19,7 @@ struct SimplifyOptions {
 
 /// A mesh with the order in which it collapses. Any of its levels can become the coarsest one of a progressive mesh.
 struct SimplifiedMesh {
-  /// What the first rounds leave of the mesh.
+  /// The mesh as the first rounds leave it.
   struct Level {
     uint32_t vertices = 0, faces = 0;
     float error = 0;  ///< distance from the final level, in the mesh's units; an estimate
