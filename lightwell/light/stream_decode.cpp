@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "lightwell/base/model_coder.h"
 #include "lightwell/light/stream.h"
 
 namespace lightwell {
 namespace {
-
-// Reads what the shared code of RecordCoder describes.
-struct Reader {
-  RangeDecoder decoder;
-
-  bool bit(AdaptiveBit& context, bool) { return decoder.bit(context); }
-  int integer(AdaptiveInteger& context, int) { return context.decode(decoder); }
-};
 
 bool is_power_of_two(float value) {
   int power;
@@ -77,13 +70,13 @@ Result<void> LightDecoder::append(Bytes payload) {
   if (complete()) return fail("light bundle", "the grid is complete already");
   const size_t end = order_.ends[bundle_];
   auto coder = std::make_unique<RecordCoder>(*coder_);
-  Reader reader{RangeDecoder(payload)};
+  ModelReader reader(payload);
   for (size_t i = at_; i < end; i++) {
     MomentsRecord record;
     coder->code(reader, record, records_, order_.nodes[i]);
     records_.set(order_.nodes[i], record);
   }
-  if (reader.decoder.overrun()) {
+  if (reader.overrun()) {
     for (size_t i = at_; i < end; i++) records_.forget(order_.nodes[i]);
     return fail("light bundle", "ends too early");
   }

@@ -2,24 +2,11 @@
 #include <cmath>
 
 #include "lightwell/base/assert.h"
+#include "lightwell/base/model_coder.h"
 #include "lightwell/light/stream.h"
 
 namespace lightwell {
 namespace {
-
-// Writes what the shared code of RecordCoder describes.
-struct Writer {
-  RangeEncoder encoder;
-
-  bool bit(AdaptiveBit& context, bool value) {
-    encoder.bit(context, value);
-    return value;
-  }
-  int integer(AdaptiveInteger& context, int value) {
-    context.encode(encoder, value);
-    return value;
-  }
-};
 
 // Sums of squares of E over the valid nodes of a bundle, in units of 2^-24: of the values and of the expectation's
 // errors.
@@ -82,14 +69,14 @@ class BundleEncoder {
   }
 
   LightBundle encode(std::span<const uint32_t> nodes, Squares& squares) {
-    Writer writer;
+    ModelWriter writer;
     for (const uint32_t node : nodes) {
       MomentsRecord record = record_of(grid_, scale_, node);
       if (record.valid()) squares.add(record, field_.expect(field_.neighbours(node), true));
       coder_.code(writer, record, field_, node);
       field_.set(node, record);
     }
-    LightBundle bundle{.payload = writer.encoder.finish(), .nodes = static_cast<uint32_t>(nodes.size())};
+    LightBundle bundle{.payload = writer.finish(), .nodes = static_cast<uint32_t>(nodes.size())};
     const size_t least = (nodes.size() + light_nodes_per_byte - 1) / light_nodes_per_byte;
     bundle.payload.resize(std::max(bundle.payload.size(), least));
     return bundle;

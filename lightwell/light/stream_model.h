@@ -81,12 +81,12 @@ struct SharedExponent {
   uint32_t bits() const;
 };
 
-/// The adaptive contexts of a light stream. One function describes the code for both directions: `io` either writes the
-/// values it is given or ignores them and returns what it reads.
+/// The adaptive contexts of a light stream. One function describes the code for both directions: `coder` is a
+/// ModelWriter or a ModelReader (base/model_coder.h).
 class RecordCoder {
  public:
-  template <typename Io>
-  void code(Io& io, MomentsRecord& record, const RecordField& field, size_t node);
+  template <typename Coder>
+  void code(Coder& coder, MomentsRecord& record, const RecordField& field, size_t node);
 
  private:
   // How large the residuals of a node have been lately, as a context: noise comes in patches.
@@ -96,11 +96,11 @@ class RecordCoder {
     void learn(int residual) { magnitude = (magnitude + 2 * std::min(std::abs(residual), 511) + 1) / 3; }
   };
 
-  template <typename Io>
-  uint32_t code_irradiance(Io& io, uint32_t bits, const std::array<int64_t, 3>& expected, size_t direction,
+  template <typename Coder>
+  uint32_t code_irradiance(Coder& coder, uint32_t bits, const std::array<int64_t, 3>& expected, size_t direction,
                            Recent& recent);
-  template <typename Io>
-  int8_t code_mixed(Io& io, int8_t value, int expected, size_t entry, Recent& recent);
+  template <typename Coder>
+  int8_t code_mixed(Coder& coder, int8_t value, int expected, size_t entry, Recent& recent);
 
   std::array<AdaptiveBit, 3> invalid_;
   std::array<AdaptiveInteger, 6> exponent_;
@@ -111,34 +111,34 @@ class RecordCoder {
 /// The exponent that RGB9E5 would share among the expected values.
 int shared_exponent(const std::array<int64_t, 3>& values);
 
-template <typename Io>
-void RecordCoder::code(Io& io, MomentsRecord& record, const RecordField& field, size_t node) {
+template <typename Coder>
+void RecordCoder::code(Coder& coder, MomentsRecord& record, const RecordField& field, size_t node) {
   const KnownNeighbours around = field.neighbours(node);
   size_t invalid = 0;
   for (size_t i = 0; i < around.count; i++) invalid += !field[around.items[i].node].valid();
   const size_t agreement = invalid == 0 ? 0 : invalid == around.count ? 2 : 1;
-  const bool valid = !io.bit(invalid_[agreement], !record.valid());
+  const bool valid = !coder.bit(invalid_[agreement], !record.valid());
 
   const RecordExpectation expected = field.expect(around, valid);
   Recent recent;
   for (size_t d = 0; d < 6; d++) {
-    record.irradiance[d] = code_irradiance(io, record.irradiance[d], expected.irradiance[d], d, recent);
+    record.irradiance[d] = code_irradiance(coder, record.irradiance[d], expected.irradiance[d], d, recent);
   }
   if (!valid) record.mixed[0] = MomentsRecord::invalid_mark;
   Recent recent_mixed;
   for (size_t i = valid ? 0 : 1; i < 9; i++) {
-    record.mixed[i] = code_mixed(io, record.mixed[i], expected.mixed[i], i, recent_mixed);
+    record.mixed[i] = code_mixed(coder, record.mixed[i], expected.mixed[i], i, recent_mixed);
   }
 }
 
 // Green first; of its residual, red and blue are expected to have the same share of their own value.
-template <typename Io>
-uint32_t RecordCoder::code_irradiance(Io& io, uint32_t bits, const std::array<int64_t, 3>& expected, size_t direction,
-                                      Recent& recent) {
+template <typename Coder>
+uint32_t RecordCoder::code_irradiance(Coder& coder, uint32_t bits, const std::array<int64_t, 3>& expected,
+                                      size_t direction, Recent& recent) {
   SharedExponent value = SharedExponent::of(bits);
   const int likely = shared_exponent(expected);
   value.exponent = static_cast<int>(
-      std::clamp<int64_t>(int64_t(likely) + io.integer(exponent_[direction], value.exponent - likely), 0, 31));
+      std::clamp<int64_t>(int64_t(likely) + coder.integer(exponent_[direction], value.exponent - likely), 0, 31));
 
   std::array<int, 3> mantissa;
   for (size_t c = 0; c < 3; c++) {
@@ -151,16 +151,16 @@ uint32_t RecordCoder::code_irradiance(Io& io, uint32_t bits, const std::array<in
       const int change = mantissa[c] * (value.mantissa[1] - green) * 7 / (8 * green);
       mantissa[c] = std::clamp(mantissa[c] + change, 0, 511);
     }
-    const int residual = io.integer(mantissa_[c][recent.context()], value.mantissa[c] - mantissa[c]);
+    const int residual = coder.integer(mantissa_[c][recent.context()], value.mantissa[c] - mantissa[c]);
     value.mantissa[c] = static_cast<int>(std::clamp<int64_t>(int64_t(mantissa[c]) + residual, 0, 511));
     recent.learn(value.mantissa[c] - mantissa[c]);
   }
   return value.bits();
 }
 
-template <typename Io>
-int8_t RecordCoder::code_mixed(Io& io, int8_t value, int expected, size_t entry, Recent& recent) {
-  const int residual = io.integer(mixed_[entry % 3][recent.context()], value - expected);
+template <typename Coder>
+int8_t RecordCoder::code_mixed(Coder& coder, int8_t value, int expected, size_t entry, Recent& recent) {
+  const int residual = coder.integer(mixed_[entry % 3][recent.context()], value - expected);
   const auto decoded = static_cast<int>(std::clamp<int64_t>(int64_t(expected) + residual, -127, 127));
   recent.learn(decoded - expected);
   return static_cast<int8_t>(decoded);

@@ -5,41 +5,10 @@
 #include <bit>
 #include <utility>
 
-#include "lightwell/base/range_coder.h"
+#include "lightwell/base/model_coder.h"
 #include "lightwell/mesh/refinement.h"
 
 namespace lightwell {
-
-/// The two directions of the code. Each function takes the value to be written and returns the one that is in the
-/// stream, so that one description serves encoder and decoder; a reader ignores what it is given.
-class SplitWriter {
- public:
-  static constexpr bool writes = true;
-
-  bool bit(AdaptiveBit& model, bool value) { return encoder_.bit(model, value), value; }
-  uint32_t natural(AdaptiveNatural& model, uint32_t value) { return model.encode(encoder_, value), value; }
-  int32_t integer(AdaptiveInteger& model, int32_t value) { return model.encode(encoder_, value), value; }
-  uint32_t raw(uint32_t value, int bits) { return encoder_.raw(value, bits), value; }
-  std::vector<uint8_t> finish() { return encoder_.finish(); }
-
- private:
-  RangeEncoder encoder_;
-};
-
-class SplitReader {
- public:
-  static constexpr bool writes = false;
-
-  explicit SplitReader(Bytes payload) : decoder_(payload) {}
-  bool bit(AdaptiveBit& model, bool) { return decoder_.bit(model); }
-  uint32_t natural(AdaptiveNatural& model, uint32_t) { return model.decode(decoder_); }
-  int32_t integer(AdaptiveInteger& model, int32_t) { return model.decode(decoder_); }
-  uint32_t raw(uint32_t, int bits) { return decoder_.raw(bits); }
-  bool overrun() const { return decoder_.overrun(); }
-
- private:
-  RangeDecoder decoder_;
-};
 
 /// Codes what a split adds, against a Refinement that both sides have. Models learn from block to block.
 class SplitCoder {

@@ -62,9 +62,9 @@ struct MeshDecoder::State {
   explicit State(Refinement base) : mesh(std::move(base)), sweep(mesh.points()) {}
 
   Result<void> decode(Bytes payload);
-  Result<void> add_point(SplitReader& reader);
-  Result<void> add_vertex(SplitReader& reader, uint32_t parent_point, bool begins_point);
-  Result<void> add_loose_face(SplitReader& reader);
+  Result<void> add_point(ModelReader& reader);
+  Result<void> add_vertex(ModelReader& reader, uint32_t parent_point, bool begins_point);
+  Result<void> add_loose_face(ModelReader& reader);
   /// Takes vertices and faces from what the payload may add.
   Result<void> spend(size_t elements);
 
@@ -95,7 +95,7 @@ Result<void> MeshDecoder::append(Bytes payload) {
 }
 
 Result<void> MeshDecoder::State::decode(Bytes payload) {
-  SplitReader reader(payload);
+  ModelReader reader(payload);
   payload_elements = uint64_t(payload.size()) * elements_per_byte;
   const uint32_t splits = coder.count(reader, 0);
   for (uint32_t i = 0; i < splits; i++) LW_CHECK(add_point(reader));
@@ -105,7 +105,7 @@ Result<void> MeshDecoder::State::decode(Bytes payload) {
   return {};
 }
 
-Result<void> MeshDecoder::State::add_point(SplitReader& reader) {
+Result<void> MeshDecoder::State::add_point(ModelReader& reader) {
   if (left_of_pass == 0) {
     left_of_pass = coder.count(reader, 0);
     if (left_of_pass == 0 || mesh.points() == 0) return corrupt("an empty pass");
@@ -130,7 +130,7 @@ Result<void> MeshDecoder::State::add_point(SplitReader& reader) {
   return {};
 }
 
-Result<void> MeshDecoder::State::add_vertex(SplitReader& reader, uint32_t parent_point, bool begins_point) {
+Result<void> MeshDecoder::State::add_vertex(ModelReader& reader, uint32_t parent_point, bool begins_point) {
   const MeshLayout& layout = mesh.layout();
   if (mesh.vertices() == layout.vertices) return corrupt("too many vertices");
   if (!coder.new_vertex(reader, mesh, parent_point, begins_point, vertex)) return corrupt("an impossible split");
@@ -141,7 +141,7 @@ Result<void> MeshDecoder::State::add_vertex(SplitReader& reader, uint32_t parent
   return {};
 }
 
-Result<void> MeshDecoder::State::add_loose_face(SplitReader& reader) {
+Result<void> MeshDecoder::State::add_loose_face(ModelReader& reader) {
   const MeshLayout& layout = mesh.layout();
   if (mesh.vertices() < layout.vertices || mesh.faces() < layout.faces - layout.loose_faces)
     return corrupt("a loose face before the others");

@@ -93,7 +93,7 @@ class Encoder {
  private:
   void add_block(uint32_t point, uint32_t end, uint32_t loose) {
     const uint32_t vertices = level_->vertices(), faces = level_->faces();
-    SplitWriter writer;
+    ModelWriter writer;
     coder_.count(writer, end - point);
     for (uint32_t i = point; i < end; i++) add_point(writer, i);
     coder_.count(writer, loose);
@@ -106,7 +106,7 @@ class Encoder {
     out_.blocks.push_back(std::move(block));
   }
 
-  void add_point(SplitWriter& writer, uint32_t point) {
+  void add_point(ModelWriter& writer, uint32_t point) {
     if (pass_ == 0 || point == mesh_.passes[pass_ - 1].point_end) {
       coder_.count(writer, mesh_.passes[pass_++].point_end - point);
       sweep_.begin_pass();
@@ -129,7 +129,7 @@ class Encoder {
     sweep_.add(point);
   }
 
-  void add_vertex(SplitWriter& writer, uint32_t v, uint32_t parent_point, bool begins_point) {
+  void add_vertex(ModelWriter& writer, uint32_t v, uint32_t parent_point, bool begins_point) {
     NewVertex vertex;
     vertex.parent = mesh_.parent[v];
     level_->gather_fan(vertex.parent, vertex.fan);
@@ -165,7 +165,7 @@ class Encoder {
     if (!codes.colors.empty()) vertex.color = codes.colors[v];
   }
 
-  void add_loose_face(SplitWriter& writer) {
+  void add_loose_face(ModelWriter& writer) {
     const Face& face = mesh_.mesh.faces[next_face_++];
     for (const uint32_t v : face) coder_.vertex(writer, *level_, v);
     level_->add_loose(face);

@@ -200,7 +200,7 @@ TEST(MeshStream, NoiseIsNoStream) {
 std::vector<uint8_t> likely_splits(const MeshLayout& layout, const MeshArrays& base, uint32_t splits) {
   Refinement mesh = Refinement::open(layout, base).value();
   SplitCoder coder;
-  SplitWriter writer;
+  ModelWriter writer;
   coder.count(writer, splits);  // of the block
   coder.count(writer, splits);  // of the pass
   for (uint32_t i = 0; i < splits; i++) {
