@@ -52,7 +52,7 @@ Result<FreeSpace> FreeSpace::survey(const World& world, const SurveyOptions& opt
             seen[static_cast<size_t>(thread)].watch(world, space.solids_, options.seed, first + i);
         },
         [&] { return progress.cancelled(); });
-    if (progress.cancelled()) return fail("light", "cancelled");
+    if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
     sum = {space.solids_.no_hits()};
     for (const Sightings& of_thread : seen) sum += of_thread;
   }

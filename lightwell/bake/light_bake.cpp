@@ -21,8 +21,9 @@ constexpr size_t samples_at_a_time = 4096;
 Result<GridShape> place_nodes(const World& world, int longest) {
   const GridShape shape = grid_of_walls(world, longest);
   if (shape.count() <= LightLayout::most_nodes) return shape;
-  return fail("grid", std::to_string(longest) + " nodes on the longest axis are " + std::to_string(shape.count()) +
-                          " in all, a pack holds " + std::to_string(LightLayout::most_nodes));
+  return fail(ErrorKind::limit, "grid",
+              std::to_string(longest) + " nodes on the longest axis are " + std::to_string(shape.count()) +
+                  " in all, a pack holds " + std::to_string(LightLayout::most_nodes));
 }
 
 Result<std::unique_ptr<PartialLight>> sum_up(const Estimator& estimator, int threads, Progress& progress) {
@@ -39,7 +40,7 @@ Result<std::unique_ptr<PartialLight>> sum_up(const Estimator& estimator, int thr
         progress.advance(static_cast<double>(done += end - begin));
       },
       [&] { return progress.cancelled(); });
-  if (progress.cancelled()) return fail("light", "cancelled");
+  if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
   for (size_t i = 1; i < sums.size(); i++) sums.front()->add(*sums[i]);
   return std::move(sums.front());
 }

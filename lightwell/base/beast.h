@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Boost's sockets and HTTP, under the names that the rooms `transport` and `server` call them by.
+// Boost's sockets and HTTP, under the names that the rooms `transport` and `server` use.
 
 // Boost 1.74's asio uses std::exchange without including <utility>.
 // clang-format off

@@ -14,7 +14,7 @@ namespace lightwell {
 
 using Bytes = std::span<const uint8_t>;
 
-/// Reads little-endian fields from bytes that nobody vouches for. A read past the end yields zero and leaves the cursor
+/// A cursor that reads little-endian fields from untrusted bytes. A read past the end yields zero and leaves the cursor
 /// failed for good, so a decoder may read a whole header and ask ok() once, before it allocates anything.
 class ByteReader {
  public:
@@ -55,7 +55,7 @@ class ByteReader {
   bool failed_ = false;
 };
 
-/// Appends little-endian fields to a growing array of bytes.
+/// A growing array of bytes to which little-endian fields are appended.
 class ByteWriter {
  public:
   void u8(uint8_t value) { integer(value); }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/base/file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <random>
 #include <system_error>
 
 namespace lightwell {
+namespace fs = std::filesystem;
 namespace {
 
 struct Close {
@@ -22,7 +25,7 @@ std::string reason(int code) { return std::generic_category().message(code); }
 // Inflates every member of the file, one behind the other (RFC 1952, 2.2).
 Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
   z_stream stream{};
-  if (inflateInit2(&stream, 15 + 16) != Z_OK) return fail("gzip", "out of memory");
+  if (inflateInit2(&stream, 15 + 16) != Z_OK) return fail(ErrorKind::limit, "gzip", "out of memory");
   std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
   std::vector<uint8_t> bytes;
   std::vector<uint8_t> chunk(size_t(1) << 20);
@@ -41,7 +44,7 @@ Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
       return fail("gzip", status == Z_BUF_ERROR ? "the file ends too early" : "damaged data");
     const size_t produced = chunk.size() - stream.avail_out;
     if (bytes.size() + produced > limit)
-      return fail("gzip", "inflates to more than " + std::to_string(limit) + " bytes");
+      return fail(ErrorKind::limit, "gzip", "inflates to more than " + std::to_string(limit) + " bytes");
     bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<ptrdiff_t>(produced));
     if (status != Z_STREAM_END) continue;
     more = stream.avail_in > 0 || at < packed.size();
@@ -52,38 +55,107 @@ Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
 
 Result<void> write_all(std::FILE* file, const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
   LW_CHECK(fill([&](Bytes bytes) { return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size(); }));
-  if (std::fflush(file) != 0 || std::ferror(file)) return fail("", reason(errno));
+  if (std::fflush(file) != 0 || std::ferror(file)) return fail(ErrorKind::io, "", reason(errno));
   return {};
 }
 
-// A regular file is replaced; a device or a pipe is written to.
-Result<bool> is_replaced(const std::filesystem::path& path) {
-  std::error_code unknown;
-  const auto kind = std::filesystem::status(path, unknown).type();
-  if (kind == std::filesystem::file_type::directory) return fail({path.string(), "", "is a folder"});
-  return kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
+Error not_writable(const fs::path& path, const std::string& why) {
+  return {path.string(), "", "cannot be written: " + why, ErrorKind::io};
 }
 
-std::filesystem::path temporary_beside(const std::filesystem::path& path) {
-  return path.string() + ".part" + std::to_string(getpid());
+// Where a path leads through its links, the last of which may lead to a file that is not there yet.
+Result<fs::path> behind_links(const fs::path& path) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  fs::path at = path;
+  std::error_code code;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(at, code)); links++) {
+    if (links == most_links) return fail(not_writable(path, reason(ELOOP)));
+    const fs::path target = fs::read_symlink(at, code);
+    if (code) return fail(not_writable(path, code.message()));
+    at = at.parent_path() / target;
+  }
+  return at;
+}
+
+// A regular file is replaced; a device or a pipe is written to.
+Result<bool> is_replaced(const fs::path& path) {
+  std::error_code unknown;
+  const auto kind = fs::status(path, unknown).type();
+  if (kind == fs::file_type::directory) return fail({path.string(), "", "is a folder", ErrorKind::io});
+  return kind == fs::file_type::regular || kind == fs::file_type::not_found;
+}
+
+// A file in the folder of another, under a name that nobody can have foreseen and laid a link at. Removed with the
+// object unless it has taken the other's place.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& beside) {
+    constexpr int attempts = 8;  // a name is taken once in 2^64
+    std::random_device random;
+    for (int i = 0; i < attempts; i++) {
+      char digits[17];
+      std::snprintf(digits, sizeof digits, "%08x%08x", random(), random());
+      path_ = beside.string() + "." + digits + ".part";
+      const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+      made_ = descriptor >= 0;
+      if (made_) file_.reset(::fdopen(descriptor, "wb"));
+      failure_ = errno;
+      if (made_ || failure_ != EEXIST) break;
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    if (made_) fs::remove(path_, ignored);
+  }
+
+  // What the system said when there is no file.
+  int failure() const { return failure_; }
+  std::FILE* file() const { return file_.get(); }
+
+  // Closes the file and lets it take the place of another.
+  Result<void> replace(const fs::path& other) {
+    std::error_code code;
+    if (std::fclose(file_.release()) != 0) return fail(ErrorKind::io, "", reason(errno));
+    fs::rename(path_, other, code);
+    if (code) return fail(ErrorKind::io, "", code.message());
+    made_ = false;
+    return {};
+  }
+
+ private:
+  fs::path path_;
+  File file_;
+  int failure_ = 0;
+  bool made_ = false;
+};
+
+Result<void> replace_file(const fs::path& path,
+                          const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
+  TemporaryFile temporary(path);
+  if (!temporary.file()) return fail(not_writable(path, reason(temporary.failure())));
+  LW_CHECK(write_all(temporary.file(), fill));
+  return temporary.replace(path);
 }
 
 }  // namespace
 
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate, size_t limit) {
   std::error_code code;
-  if (std::filesystem::is_directory(path, code)) return fail({path.string(), "", "is a folder"});
-  const File file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail({path.string(), "", reason(errno)});
+  if (std::filesystem::is_directory(path, code)) return fail({path.string(), "", "is a folder", ErrorKind::io});
+  const File file(std::fopen(path.c_str(), "rbe"));
+  if (!file) return fail({path.string(), "", reason(errno), ErrorKind::io});
   std::vector<uint8_t> bytes;
   for (size_t got = 1; got > 0;) {
     const size_t before = bytes.size();
-    if (before > limit) return fail({path.string(), "", "is larger than " + std::to_string(limit) + " bytes"});
+    if (before > limit)
+      return fail({path.string(), "", "is larger than " + std::to_string(limit) + " bytes", ErrorKind::limit});
     bytes.resize(std::max<size_t>(before * 2, size_t(1) << 16));
     got = std::fread(bytes.data() + before, 1, bytes.size() - before, file.get());
     bytes.resize(before + got);
   }
-  if (std::ferror(file.get())) return fail({path.string(), "", "cannot be read"});
+  if (std::ferror(file.get())) return fail({path.string(), "", "cannot be read", ErrorKind::io});
   if (!inflate || bytes.size() < 2 || bytes[0] != 0x1f || bytes[1] != 0x8b) return bytes;
   auto plain = inflate_gzip(bytes, limit);
   if (!plain) return fail(in_file(plain.error(), path.string()));
@@ -92,7 +164,7 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool i
 
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
   return write_file(path, [&](const std::function<bool(Bytes)>& append) -> Result<void> {
-    if (!append(bytes)) return fail("", reason(errno));
+    if (!append(bytes)) return fail(ErrorKind::io, "", reason(errno));
     return {};
   });
 }
@@ -101,29 +173,16 @@ Result<void> write_file(const std::filesystem::path& path,
                         const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
   if (path == "-") return write_all(stdout, fill);
   LW_TRY(replaced, is_replaced(path));
-  if (!replaced) {
-    const File device(std::fopen(path.c_str(), "wb"));
-    if (!device) return fail({path.string(), "", "cannot be written: " + reason(errno)});
-    auto outcome = write_all(device.get(), fill);
-    return outcome ? outcome : Result<void>(fail(in_file(outcome.error(), path.string())));
-  }
-  const std::filesystem::path temporary = temporary_beside(path);
   Result<void> written;
-  {
-    const File file(std::fopen(temporary.c_str(), "wb"));
-    if (!file) return fail({path.string(), "", "cannot be written: " + reason(errno)});
-    written = write_all(file.get(), fill);
+  if (replaced) {
+    LW_TRY(file, behind_links(path));
+    written = replace_file(file, fill);
+  } else {
+    const File device(std::fopen(path.c_str(), "wbe"));
+    if (!device) return fail(not_writable(path, reason(errno)));
+    written = write_all(device.get(), fill);
   }
-  std::error_code code;
-  if (written) {
-    std::filesystem::rename(temporary, path, code);
-    if (code) written = fail("", code.message());
-  }
-  if (!written) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return fail(in_file(written.error(), path.string()));
-  }
+  if (!written) return fail(in_file(written.error(), path.string()));
   return {};
 }
 
@@ -131,14 +190,12 @@ Result<void> check_writable(const std::filesystem::path& path) {
   if (path == "-") return {};
   LW_TRY(replaced, is_replaced(path));
   if (!replaced) {
-    if (access(path.c_str(), W_OK) != 0) return fail({path.string(), "", "cannot be written: " + reason(errno)});
+    if (access(path.c_str(), W_OK) != 0) return fail(not_writable(path, reason(errno)));
     return {};
   }
-  const std::filesystem::path temporary = temporary_beside(path);
-  const bool opened = File(std::fopen(temporary.c_str(), "wb")) != nullptr;
-  if (!opened) return fail({path.string(), "", "cannot be written: " + reason(errno)});
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
+  LW_TRY(file, behind_links(path));
+  const TemporaryFile temporary(file);
+  if (!temporary.file()) return fail(not_writable(path, reason(temporary.failure())));
   return {};
 }
 

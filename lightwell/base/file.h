@@ -10,12 +10,15 @@
 
 namespace lightwell {
 
-/// The whole of a regular file; a gzipped one (recognised by content) is inflated when `inflate` is set. Errors name
-/// the file. At most `limit` bytes are produced, so that a small hostile file cannot exhaust memory.
+// All functions may be called from any thread. Their errors name the file.
+
+/// The content of a regular file; a gzipped one (recognised by its first bytes) is inflated when `inflate` is set. More
+/// than `limit` bytes are an error, so that a small hostile file cannot exhaust memory.
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate = false,
                                        size_t limit = size_t(4) << 30);
 
-/// Writes a file as a whole or not at all: into a temporary file beside it that is renamed at the end. "-" is stdout.
+/// Writes a file as a whole or not at all: into a temporary file in its folder that takes its place at the end. A link
+/// stays, and the file that it leads to is replaced. "-" is stdout.
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
 
 /// The same for content made piece by piece: `fill` gets a function that appends bytes (and says whether that worked).

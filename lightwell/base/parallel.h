@@ -6,13 +6,16 @@
 
 namespace lightwell {
 
-/// Number of threads that parallel_for uses when told 0: the processors this process may use.
+/// The number of threads that parallel_for uses when told 0: that of the machine's processors.
 int default_threads();
 
 /// Calls body(begin, end, thread) for consecutive chunks of [0, count) of at most `grain` items; thread is in
-/// [0, threads). Chunks are handed out in order, to whichever thread is free, so a result must not depend on which
-/// thread did what. Serial where there are no threads (WebAssembly). Stops early, between chunks, when `stop` returns
-/// true.
+/// [0, threads), and the calling thread is number 0. Chunks are handed out in order, to whichever thread is free, so a
+/// result must not depend on which thread did what. Stops early, between chunks, when `stop` returns true.
+///
+/// `body` and `stop` are called from several threads at once, never two of them with the same number, and must not
+/// throw. All calls have ended, and what they wrote can be read, when parallel_for returns. Calls of it share nothing:
+/// they may be nested and made from several threads.
 void parallel_for(size_t count, size_t grain, int threads, const std::function<void(size_t, size_t, int)>& body,
                   const std::function<bool()>& stop = {});
 

@@ -5,15 +5,17 @@
 
 namespace lightwell {
 
-/// Whom a long computation tells how far it is, and who may ask it to stop. Calls may come from any thread.
+/// A long computation's way to its user: it reports how far it is, and asks whether it shall go on. All functions may
+/// be called from any thread, and from several at once.
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// A new stage begins; it will count `total` of `unit` ("photons", "collapses"), 0 when that is unknown.
+  /// Begins a stage of `total` units ("photons", "collapses"); 0 when their number is unknown.
   virtual void stage(std::string_view /*name*/, double /*total*/, std::string_view /*unit*/) {}
-  /// `done` of the stage's total are done.
+  /// Reports that `done` units of the stage are done. Threads may report out of order; the largest number holds.
   virtual void advance(double /*done*/) {}
-  /// True when the user wants the computation to end; it then returns an error as soon as it can.
+  /// True when the user wants the computation to end; it then fails as soon as it can, with ErrorKind::cancelled. Once
+  /// true, it stays true.
   virtual bool cancelled() const { return false; }
 };
 

@@ -14,7 +14,7 @@ constexpr uint64_t hash64(uint64_t x) {
   return x ^ x >> 31;
 }
 
-/// A random sequence of its own for every (seed, index): photon 7 draws the same numbers whichever thread traces it.
+/// The random sequence of a (seed, index): photon 7 draws the same numbers whichever thread traces it.
 /// PCG-XSH-RR with 64 bits of state (O'Neill 2014); seed and index are hashed, since states a constant step apart would
 /// share one stream.
 class Random {

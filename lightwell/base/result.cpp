@@ -5,6 +5,19 @@
 
 namespace lightwell {
 
+Error::Error(std::string in_which_file, std::string of_which_element, std::string why, ErrorKind which_kind,
+             std::optional<uint64_t> where)
+    : file(std::move(in_which_file)),
+      element(std::move(of_which_element)),
+      reason(std::move(why)),
+      kind(which_kind),
+      offset(where) {}
+Error::Error(const Error&) = default;
+Error::Error(Error&&) noexcept = default;
+Error& Error::operator=(const Error&) = default;
+Error& Error::operator=(Error&&) noexcept = default;
+Error::~Error() = default;
+
 std::string Error::message() const {
   std::string text;
   for (const std::string* part : {&file, &element, &reason}) {
@@ -12,11 +25,36 @@ std::string Error::message() const {
     if (!text.empty()) text += ": ";
     text += *part;
   }
+  if (offset) text += " (at byte " + std::to_string(*offset) + ")";
   return text;
 }
 
+tl::unexpected<Error> fail(ErrorKind kind, std::string_view element, std::string_view reason) {
+  return fail(Error("", std::string(element), std::string(reason), kind));
+}
+
+tl::unexpected<Error> fail(std::string_view element, std::string_view reason) {
+  return fail(ErrorKind::bad_input, element, reason);
+}
+
+tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+
 Error in_file(Error error, const std::string& file) {
   if (error.file.empty()) error.file = file;
+  return error;
+}
+
+Error in_element(Error error, std::string_view element) {
+  std::string path(element);
+  for (const std::string* part : {&error.file, &error.element})
+    if (!part->empty()) path += ": " + *part;
+  error.element = std::move(path);
+  error.file.clear();
+  return error;
+}
+
+Error at_byte(Error error, uint64_t offset) {
+  if (!error.offset) error.offset = offset;
   return error;
 }
 

@@ -1,20 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
 
 namespace lightwell {
 
-/// Why an operation on somebody's data failed: which file, which element of it, and the reason, each in a few words.
-/// Printed as "FILE: ELEMENT: REASON"; an empty part is left out.
+/// What kind of failure it is, for callers that act on it.
+enum class ErrorKind : uint8_t {
+  bad_input,    ///< the data or the argument is not what it has to be
+  unsupported,  ///< of a format, version, codec or extension that this program does not know
+  io,           ///< a file, a network or the system did not do what was asked of it
+  cancelled,    ///< the user ended it
+  limit,        ///< beyond a stated limit, or beyond the memory that there is
+};
+
+/// Why an operation on somebody's data failed: the file, the element of it and the reason, each in a few words, and the
+/// first byte concerned where that is known. Its special members are out of line, since hundreds of callers have them.
 struct Error {
   std::string file;
   std::string element;
   std::string reason;
+  ErrorKind kind = ErrorKind::bad_input;
+  std::optional<uint64_t> offset;  ///< in the file
 
+  Error(std::string file, std::string element, std::string reason, ErrorKind kind = ErrorKind::bad_input,
+        std::optional<uint64_t> offset = {});
+  Error(const Error&);
+  Error(Error&&) noexcept;
+  Error& operator=(const Error&);
+  Error& operator=(Error&&) noexcept;
+  ~Error();
+
+  /// "FILE: ELEMENT: REASON (at byte OFFSET)"; what is empty or unknown is left out.
   std::string message() const;
 };
 
@@ -22,17 +45,21 @@ struct Error {
 template <typename T>
 using Result = tl::expected<T, Error>;
 
-/// The failure of element for the given reason; the file is added by whoever knows it (see in_file).
-inline tl::unexpected<Error> fail(std::string element, std::string reason) {
-  return tl::unexpected<Error>(Error{"", std::move(element), std::move(reason)});
-}
-
-inline tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+/// The failure of an element for the given reason; the file is added by whoever knows it (see in_file).
+tl::unexpected<Error> fail(ErrorKind kind, std::string_view element, std::string_view reason);
+/// The same for bad input.
+tl::unexpected<Error> fail(std::string_view element, std::string_view reason);
+tl::unexpected<Error> fail(Error error);
 
 /// The same error, said of a file; an error that names its file already is left as it is.
 Error in_file(Error error, const std::string& file);
+/// The same error, said of an element of another file: the file and the element that it named so far follow the
+/// element's name.
+Error in_element(Error error, std::string_view element);
+/// The same error with the byte of the file where it is; an error that knows its byte already is left as it is.
+Error at_byte(Error error, uint64_t offset);
 
-/// What an import or a bake wants its user to know although it went on. Each warning is one line.
+/// The warnings of an import or a bake that went on in spite of them, each one line. For one thread at a time.
 struct Report {
   std::vector<std::string> warnings;
 

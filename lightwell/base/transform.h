@@ -20,7 +20,7 @@ struct Transform {
   Vec3f vector(const Vec3f& v) const { return vector(v.cast<double>()).cast<float>(); }
   Vec3d vector(const Vec3d& v) const { return x * v[0] + y * v[1] + z * v[2]; }
   /// The unit normal of a surface whose normal was n before the map: by the cofactors, so that it also holds for uneven
-  /// scales; a mirroring map turns no normal inside out. Zero when the map flattens the surface.
+  /// scales; a map that mirrors turns no normal inside out. Zero when the map flattens the surface.
   Vec3f normal(const Vec3f& n) const;
   double determinant() const { return dot(x, cross(y, z)); }
   /// The inverse map. The determinant must not be zero.

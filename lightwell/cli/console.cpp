@@ -35,7 +35,7 @@ std::string scaled_number(double value) {
 }  // namespace
 
 int Console::fail(const Error& error) const {
-  if (interrupted != 0) {
+  if (error.kind == ErrorKind::cancelled) {
     std::fputs("lightwell: cancelled, nothing written\n", stderr);
     return 128 + interrupted;
   }

@@ -33,7 +33,7 @@ Result<std::vector<uint8_t>> read_pack(const std::string& path) {
   LW_CHECK(refuse_builtin_scene(path));
   std::error_code unknown;
   if (!std::filesystem::exists(path, unknown) && resembles_url(path))
-    return fail({path, "", "no such file; a URL begins with http://"});
+    return fail({path, "", "no such file; a URL begins with http://", ErrorKind::io});
   return read_file(path);
 }
 
@@ -50,7 +50,8 @@ Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
   std::unique_ptr<Transport> transport;
   const std::string url = with_plain_scheme(options.url);
   if (url.starts_with("https://"))
-    return fail("", "https is not spoken here; save the file with another program, such as curl, and fetch that");
+    return fail(ErrorKind::unsupported, "",
+                "https is not spoken here; save the file with another program, such as curl, and fetch that");
   if (url.starts_with("http://")) {
     LW_TRY(http, http_transport(url));
     transport = std::move(http);

@@ -69,7 +69,7 @@ Result<std::vector<ProbePoint>> read_probe_points(const std::string& path) {
   for (size_t i = 1; i < lines.size(); i++) {
     if (trimmed(lines[i]).empty()) continue;
     auto point = read_point(lines[i], *columns);
-    if (!point) return fail({path, "line " + std::to_string(i + 1), point.error().reason});
+    if (!point) return fail(in_file(in_element(point.error(), "line " + std::to_string(i + 1)), path));
     points.push_back(*point);
   }
   return points;

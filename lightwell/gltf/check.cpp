@@ -247,9 +247,11 @@ Result<void> check_version(const Json& json) {
   const Json& asset = member(json, "asset");
   const std::string version = text(asset, "version"), least = text(asset, "minVersion");
   if (version.empty()) return fail("asset", "version is missing");
-  if (!is_version_2(version)) return fail("asset", "version " + version.substr(0, 20) + " is not supported, only 2.0");
+  if (!is_version_2(version))
+    return fail(ErrorKind::unsupported, "asset", "version " + version.substr(0, 20) + " is not supported, only 2.0");
   if (!least.empty() && least != "2.0")
-    return fail("asset", "asks for glTF " + least.substr(0, 20) + " at least, 2.0 is supported");
+    return fail(ErrorKind::unsupported, "asset",
+                "asks for glTF " + least.substr(0, 20) + " at least, 2.0 is supported");
   return {};
 }
 

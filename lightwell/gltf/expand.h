@@ -11,7 +11,8 @@ class Budget {
   explicit Budget(double bytes) : left_(bytes) {}
   /// Takes `bytes`, or fails in the name of `element` when fewer are left.
   Result<void> take(double bytes, const std::string& element) {
-    if (!(bytes <= left_)) return fail(element, "expands to more than is sensible for a file of this size");
+    if (!(bytes <= left_))
+      return fail(ErrorKind::limit, element, "expands to more than is sensible for a file of this size");
     left_ -= bytes;
     return {};
   }

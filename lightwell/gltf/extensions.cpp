@@ -88,7 +88,8 @@ void drop_unknown(Json& json, std::set<std::string>& dropped) {
 Result<void> check_required_extensions(const Json& json) {
   for (const Json& name : member(json, "extensionsRequired"))
     if (name.is_string() && !is_known(name.get<std::string>()))
-      return fail("extensionsRequired", name.get<std::string>().substr(0, 80) + " is not supported");
+      return fail(ErrorKind::unsupported, "extensionsRequired",
+                  name.get<std::string>().substr(0, 80) + " is not supported");
   return {};
 }
 

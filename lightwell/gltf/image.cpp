@@ -15,7 +15,7 @@ Result<std::vector<uint8_t>> read_image(const Document& document, int image) {
   }
   if (!member(json, "uri").is_string()) return fail(name, "has neither a bufferView nor a URI");
   auto bytes = read_uri(text(json, "uri"), document.folder);
-  if (!bytes) return fail(Error{"", name, bytes.error().message()});
+  if (!bytes) return fail(in_element(bytes.error(), name));
   return bytes;
 }
 

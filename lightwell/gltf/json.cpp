@@ -28,22 +28,25 @@ Result<void> check_shape(Bytes text) {
     if (c == '{' || c == '[') keys.push_back(0);
     if ((c == '}' || c == ']') && !keys.empty()) keys.pop_back();
     if (c == ':' && !keys.empty() && ++keys.back() > max_keys)
-      return fail("JSON", "an object has more than " + std::to_string(max_keys) + " keys");
-    if (keys.size() > max_depth) return fail("JSON", "is nested deeper than " + std::to_string(max_depth) + " levels");
+      return fail(ErrorKind::limit, "JSON", "an object has more than " + std::to_string(max_keys) + " keys");
+    if (keys.size() > max_depth)
+      return fail(ErrorKind::limit, "JSON", "is nested deeper than " + std::to_string(max_depth) + " levels");
   }
   return {};
 }
 
 }  // namespace
 
-Result<Json> parse_json(Bytes text) {
+Result<Json> parse_json(Bytes text, uint64_t place) {
+  const size_t whole = text.size();
   constexpr uint8_t mark[] = {0xef, 0xbb, 0xbf};
   if (text.size() >= 3 && std::equal(mark, mark + 3, text.begin())) text = text.subspan(3);
   LW_CHECK(check_shape(text));
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
-    return fail("JSON", "syntax error at byte " + std::to_string(error.byte));
+    const size_t read = whole - text.size() + std::max<size_t>(error.byte, 1);  // up to and with what is wrong
+    return fail({"", "JSON", "syntax error", ErrorKind::bad_input, place + read - 1});
   } catch (const Json::exception&) {
     return fail("JSON", "holds a number that is too large");
   }

@@ -14,8 +14,9 @@ namespace lightwell {
 using Json = nlohmann::ordered_json;
 
 /// Parses JSON (UTF-8, with or without a byte order mark) that nobody vouches for: at most 128 levels deep and 8192
-/// keys an object, since what follows recurses over levels and looks keys up one by one.
-Result<Json> parse_json(Bytes text);
+/// keys an object, since what follows recurses over levels and looks keys up one by one. `place` is where the text
+/// begins in its file, so that a syntax error can say at which byte it is.
+Result<Json> parse_json(Bytes text, uint64_t place = 0);
 
 // Lookups that never throw: what is missing or of another type reads as null or as the fallback.
 

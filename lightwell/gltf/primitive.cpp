@@ -64,7 +64,7 @@ class PrimitiveReader {
     if (accessor < 0) return AccessorData();
     const std::string name = name_ + ".attributes." + semantic;
     auto data = locate(document_, accessor);
-    if (!data) return fail(Error{"", name, data.error().message()});
+    if (!data) return fail(in_element(data.error(), name));
     const ElementType& type = data->type;
     if (type.columns != 1 || type.rows < least || type.rows > most || type.component == Component::u32)
       return fail(name, element_name("accessors", static_cast<size_t>(accessor)) + " is of a type that it cannot have");

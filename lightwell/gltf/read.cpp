@@ -13,6 +13,7 @@ namespace {
 constexpr uint32_t glb_magic = 0x46546c67;   // "glTF"
 constexpr uint32_t json_chunk = 0x4e4f534a;  // "JSON"
 constexpr uint32_t bin_chunk = 0x004e4942;   // "BIN"
+constexpr size_t glb_header_bytes = 12;
 
 /// The largest sum of all buffers, which is also the most that one GLB can hold.
 constexpr double max_bytes = 0x1p32;
@@ -27,10 +28,11 @@ struct Chunks {
 bool is_glb(Bytes bytes) { return ByteReader(bytes).u32() == glb_magic; }
 
 Result<Bytes> next_chunk(ByteReader& reader, uint32_t& type, const std::string& name) {
+  const uint64_t place = glb_header_bytes + reader.position();
   const uint32_t length = reader.u32();
   type = reader.u32();
   const Bytes chunk = reader.take(length);
-  if (!reader.ok()) return fail(name, "is longer than the file");
+  if (!reader.ok()) return fail({"", name, "is longer than the file", ErrorKind::bad_input, place});
   return chunk;
 }
 
@@ -40,13 +42,15 @@ Result<Bytes> glb_body(Bytes bytes, Report& report) {
   reader.u32();
   const uint32_t version = reader.u32(), length = reader.u32();
   if (!reader.ok()) return fail("GLB header", "the file ends too early");
-  if (version != 2) return fail("GLB header", "version " + std::to_string(version) + " is not supported, only 2");
+  if (version != 2)
+    return fail({"", "GLB header", "version " + std::to_string(version) + " is not supported, only 2",
+                 ErrorKind::unsupported, 4});
   if (length > bytes.size())
     return fail("GLB header",
                 "announces " + std::to_string(length) + " bytes, the file has " + std::to_string(bytes.size()));
-  if (length < 12) return fail("GLB header", "announces less than its own length");
+  if (length < glb_header_bytes) return fail("GLB header", "announces less than its own length");
   if (length < bytes.size()) report.warn("bytes after the end of the GLB are ignored");
-  return bytes.subspan(12, length - 12);
+  return bytes.subspan(glb_header_bytes, length - glb_header_bytes);
 }
 
 Result<Chunks> split_glb(Bytes bytes, Report& report) {
@@ -89,13 +93,13 @@ Result<void> read_buffers(Document& document, const Chunks& chunks) {
     Json& json = document.json["buffers"][i];
     const std::string name = element_name("buffers", i);
     auto bytes = read_buffer(document, i, chunks);
-    if (!bytes) return fail(Error{"", name, bytes.error().message()});
+    if (!bytes) return fail(in_element(bytes.error(), name));
     const auto length = static_cast<size_t>(number(json, "byteLength", 0));
     if (!bytes->empty() && bytes->size() < length)
       return fail(name, "byteLength is " + std::to_string(length) + ", but it holds " + std::to_string(bytes->size()) +
                             " bytes");
     total += static_cast<double>(std::max(bytes->size(), length));
-    if (total > max_bytes) return fail("buffers", "hold more than 4 GiB");
+    if (total > max_bytes) return fail(ErrorKind::limit, "buffers", "hold more than 4 GiB");
     if (bytes->size() > length) {
       bytes->resize(length);
       bytes->shrink_to_fit();  // a file may name a large one again and again for a byte of each
@@ -145,7 +149,7 @@ Result<Document> read_document(Bytes bytes, const std::filesystem::path& folder,
     LW_TRY(split, split_glb(bytes, report));
     chunks = split;
   }
-  LW_TRY(json, parse_json(chunks.json));
+  LW_TRY(json, parse_json(chunks.json, static_cast<uint64_t>(chunks.json.data() - bytes.data())));
   LW_CHECK(check_version(json));
   LW_CHECK(check_required_extensions(json));
   drop_unknown_extensions(json, report);

@@ -77,7 +77,8 @@ Result<fs::path> path_below(const std::string& uri, const fs::path& folder) {
   std::error_code code;
   const fs::path root = fs::canonical(folder.empty() ? fs::path(".") : folder, code);
   const fs::path path = code ? fs::path() : fs::canonical(root / relative, code);
-  if (code || !fs::is_regular_file(path, code)) return fail("", "the file " + name.substr(0, 200) + " cannot be found");
+  if (code || !fs::is_regular_file(path, code))
+    return fail(ErrorKind::io, "", "the file " + name.substr(0, 200) + " cannot be found");
   if (std::mismatch(root.begin(), root.end(), path.begin(), path.end()).first != root.end())
     return fail("", "its URI leads out of the document's folder by a link");
   return path;

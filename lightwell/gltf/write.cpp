@@ -119,7 +119,7 @@ Result<std::vector<uint8_t>> write_glb(Document document, Report& report) {
   const auto padded = [](size_t size) { return (size + 3) / 4 * 4; };
   const size_t bin_size = parts.bin.empty() ? 0 : 8 + padded(parts.bin.size());
   const size_t size = 20 + padded(parts.json.size()) + bin_size;
-  if (size > std::numeric_limits<uint32_t>::max()) return fail("GLB", "would be larger than 4 GiB");
+  if (size > std::numeric_limits<uint32_t>::max()) return fail(ErrorKind::limit, "GLB", "would be larger than 4 GiB");
 
   ByteWriter writer;
   writer.u32(glb_magic);

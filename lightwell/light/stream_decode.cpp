@@ -32,7 +32,7 @@ Result<LightLayout> LightLayout::read(Bytes parameters) {
     if (n < 2 || n > most_nodes_an_axis) return fail("light parameters", "number of nodes out of range");
     if (!(layout.shape.cell[a] > 0)) return fail("light parameters", "cell is not positive");
   }
-  if (layout.shape.count() > most_nodes) return fail("light parameters", "too many nodes");
+  if (layout.shape.count() > most_nodes) return fail(ErrorKind::limit, "light parameters", "too many nodes");
   if (!is_finite(layout.shape.lo) || !is_finite(layout.shape.hi()))
     return fail("light parameters", "place is not finite");
   if (layout.nodes_per_slice < 1 || layout.nodes_per_slice > 1024)

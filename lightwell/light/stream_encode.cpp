@@ -96,7 +96,7 @@ Result<void> check_shape(const LightGrid& grid) {
                                     std::to_string(LightLayout::most_nodes_an_axis));
   }
   if (grid.shape.count() > LightLayout::most_nodes)
-    return fail("light grid", "more than " + std::to_string(LightLayout::most_nodes) + " nodes");
+    return fail(ErrorKind::limit, "light grid", "more than " + std::to_string(LightLayout::most_nodes) + " nodes");
   LW_ASSERT(grid.moments.size() == grid.shape.count() && grid.valid.size() == grid.shape.count());
   return {};
 }

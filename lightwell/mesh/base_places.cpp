@@ -38,7 +38,7 @@ Result<BasePlaces> BasePlaces::read(ByteReader& reader) {
     *place = reader.u32();
   const uint8_t width = reader.u8();
   if (!reader.ok()) return fail("mesh parameters", "are too short");
-  if (width > 1) return fail("mesh parameters", "an unknown width of indices");
+  if (width > 1) return fail(ErrorKind::unsupported, "mesh parameters", "an unknown width of indices");
   places.short_indices = width == 1;
   return places;
 }

@@ -30,7 +30,7 @@ class Simplifier {
       before = live_.size();
       round();
       progress.advance(static_cast<double>(points_.count() - live_.size()));
-      if (progress.cancelled()) return fail("simplification", "cancelled");
+      if (progress.cancelled()) return fail(ErrorKind::cancelled, "simplification", "cancelled");
       if ((before - live_.size()) * least_yield < before) break;
     }
     return state_.release(std::move(rounds_));

@@ -15,7 +15,7 @@ constexpr uint32_t most_elements = 0xffffffff / 12;
 // first.
 constexpr uint64_t visits_per_point = 256;
 
-tl::unexpected<Error> corrupt(std::string reason) { return fail("mesh block", std::move(reason)); }
+tl::unexpected<Error> corrupt(std::string_view reason) { return fail("mesh block", reason); }
 
 }  // namespace
 
@@ -34,7 +34,7 @@ Result<MeshLayout> MeshLayout::read(ByteReader& reader) {
   for (Lattice* lattice : {&layout.positions, &layout.texcoords[0], &layout.texcoords[1]})
     lattice->exponent = static_cast<int8_t>(reader.u8());
   if (!reader.ok()) return fail("mesh layout", "too short");
-  if (flags > 15) return fail("mesh layout", "an unknown attribute");
+  if (flags > 15) return fail(ErrorKind::unsupported, "mesh layout", "an unknown attribute");
   LW_CHECK(layout.check());
   return layout;
 }
@@ -52,7 +52,7 @@ Result<void> MeshLayout::check() const {
   for (const Lattice& lattice : {positions, texcoords[0], texcoords[1]})
     if (lattice.exponent < Lattice::min_exponent || lattice.exponent > Lattice::max_exponent)
       return fail("mesh layout", "a lattice is out of range");
-  if (vertices > most_elements || faces > most_elements) return fail("mesh layout", "too large");
+  if (vertices > most_elements || faces > most_elements) return fail(ErrorKind::limit, "mesh layout", "too large");
   if (base_vertices > vertices || base_faces > faces || loose_faces > faces - base_faces)
     return fail("mesh layout", "its coarsest level is larger than its final one");
   return {};

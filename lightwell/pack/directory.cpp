@@ -27,13 +27,13 @@ Result<StreamEntry> read_stream(ByteReader& reader, size_t index) {
   entry.error = reader.f32();
   const uint32_t parameters = reader.u32();
   if (kind > static_cast<uint8_t>(StreamKind::texture))
-    return fail(name_of(index), "is of unknown kind " + std::to_string(kind));
+    return fail(ErrorKind::unsupported, name_of(index), "is of unknown kind " + std::to_string(kind));
   entry.kind = static_cast<StreamKind>(kind);
   if (reserved != 0) return fail(name_of(index), "its reserved field is not zero");
-  if (entry.blocks > max_stream_blocks) return fail(name_of(index), "has too many blocks");
+  if (entry.blocks > max_stream_blocks) return fail(ErrorKind::limit, name_of(index), "has too many blocks");
   if (!(entry.error >= 0 && std::isfinite(entry.error)))
     return fail(name_of(index), "its error is not a positive number");
-  if (parameters > max_parameter_bytes) return fail(name_of(index), "its parameters are too long");
+  if (parameters > max_parameter_bytes) return fail(ErrorKind::limit, name_of(index), "its parameters are too long");
   const Bytes bytes = reader.take(parameters);
   entry.parameters.assign(bytes.begin(), bytes.end());
   const uint32_t count = std::min(entry.blocks, rows_per_page);
@@ -109,8 +109,9 @@ Result<Directory> Directory::read(Bytes bytes, uint64_t file_length) {
   const uint32_t version = reader.u32();
   if (!reader.ok()) return fail("directory", "is cut short");
   if (version != format_version)
-    return fail("directory", "has format version " + std::to_string(version) + "; this program reads version " +
-                                 std::to_string(format_version));
+    return fail(ErrorKind::unsupported, "directory",
+                "has format version " + std::to_string(version) + "; this program reads version " +
+                    std::to_string(format_version));
   if (length != bytes.size() || length < head_bytes + block_check_bytes)
     return fail("directory", "its length is wrong");
   const Bytes checked = bytes.first(bytes.size() - block_check_bytes);
@@ -125,13 +126,15 @@ Result<Directory> Directory::read(Bytes bytes, uint64_t file_length) {
   directory.opening_check = reader.u32();
   const uint32_t count = reader.u32();
   if (count > max_streams || count > reader.remaining() / stream_head_bytes)
-    return fail("directory", "has too many streams");
+    return fail(ErrorKind::limit, "directory", "has too many streams");
   uint64_t expected = length;
   for (uint32_t i = 0; i < count; i++) {
-    LW_TRY(entry, read_stream(reader, i));
-    if (entry.first != expected) return fail(name_of(i), "does not begin where the one before it ends");
-    expected += entry.length;
-    directory.streams.push_back(std::move(entry));
+    const uint64_t place = directory.opening_length + reader.position();
+    auto entry = read_stream(reader, i);
+    if (entry && entry->first != expected) entry = fail(name_of(i), "does not begin where the one before it ends");
+    if (!entry) return fail(at_byte(entry.error(), place));
+    expected += entry->length;
+    directory.streams.push_back(std::move(*entry));
   }
   if (!reader.ok() || reader.remaining() != 0) return fail("directory", "its length is wrong");
   if (directory.opening_length + expected + 3 < file_length || directory.opening_length + expected > file_length)

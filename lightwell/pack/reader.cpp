@@ -28,10 +28,10 @@ Result<std::vector<uint8_t>> read_head(const FetchBytes& fetch, uint64_t file_le
   for (;;) {
     LW_TRY(measured, measure_opening(head));
     size = measured;
-    if (size.file_length > file_length) return fail("file", "is cut short");
+    if (size.file_length > file_length) return fail({"", "file", "is cut short", ErrorKind::bad_input, file_length});
     if (size.complete && head.size() >= size.needed) break;
     const uint64_t end = std::min(size.needed, file_length);
-    if (end == head.size()) return fail("file", "is cut short");
+    if (end == head.size()) return fail({"", "file", "is cut short", ErrorKind::bad_input, file_length});
     LW_TRY(more, fetch(head.size(), end - head.size()));
     head.insert(head.end(), more.begin(), more.end());
   }
@@ -46,18 +46,17 @@ struct FileBytes {
 
 Result<FileBytes> open_bytes(const std::string& path) {
   std::error_code missing;
-  if (std::filesystem::is_directory(path, missing)) return fail({path, "", "is a folder"});
+  if (std::filesystem::is_directory(path, missing)) return fail({path, "", "is a folder", ErrorKind::io});
   const uint64_t length = std::filesystem::file_size(path, missing);
-  if (missing) return fail({path, "", missing.message()});
+  if (missing) return fail({path, "", missing.message(), ErrorKind::io});
   const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
-  if (!*file) return fail({path, "", std::generic_category().message(errno)});
+  if (!*file) return fail({path, "", std::generic_category().message(errno), ErrorKind::io});
   const FetchBytes fetch = [file](uint64_t first, uint64_t count) -> Result<std::vector<uint8_t>> {
     std::vector<uint8_t> bytes(count);
     file->clear();
     file->seekg(static_cast<std::streamoff>(first));
     file->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-    if (!*file)
-      return fail("bytes " + std::to_string(first) + " to " + std::to_string(first + count), "cannot be read");
+    if (!*file) return fail({"", std::to_string(count) + " bytes", "cannot be read", ErrorKind::io, first});
     return bytes;
   };
   return FileBytes{fetch, length};
@@ -71,7 +70,8 @@ Result<PackReader> PackReader::open(FetchBytes fetch, uint64_t file_length) {
   LW_TRY(head, read_head(fetch, file_length, size));
   const Bytes opening = Bytes(head).first(size.opening_length);
   LW_TRY(directory, Directory::read(Bytes(head).subspan(opening.size()), file_length));
-  if (directory.opening_length != opening.size()) return fail("directory", "its length of the opening is wrong");
+  if (directory.opening_length != opening.size())
+    return fail({"", "directory", "its length of the opening is wrong", ErrorKind::bad_input, opening.size()});
   if (directory.opening_check != crc32c(opening)) return fail("opening", "its check is wrong");
 
   PackReader reader;
@@ -85,7 +85,7 @@ Result<PackReader> PackReader::open(FetchBytes fetch, uint64_t file_length) {
     while (table.known() < table.extents()) {
       LW_TRY(page, reader.payload(stream, table.known() - 1));
       if (auto added = table.add_page(page); !added)
-        return fail("stream " + std::to_string(stream), added.error().message());
+        return fail(in_element(added.error(), "stream " + std::to_string(stream)));
     }
   }
   return reader;
@@ -124,7 +124,8 @@ Result<std::vector<uint8_t>> PackReader::block(size_t stream, uint32_t index) co
 Result<std::vector<uint8_t>> PackReader::payload(size_t stream, uint32_t index) const {
   const Extent extent = tables_[stream].extent(index);
   LW_TRY(bytes, fetch_(extent.begin, extent.length));
-  if (checked_payload(bytes, directory_.id).empty()) return fail(name_of(stream, extent), "its check is wrong");
+  if (checked_payload(bytes, directory_.id).empty())
+    return fail({"", name_of(stream, extent), "its check is wrong", ErrorKind::bad_input, extent.begin});
   bytes.resize(bytes.size() - block_check_bytes);
   return std::move(bytes);
 }

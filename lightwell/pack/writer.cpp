@@ -20,14 +20,19 @@ BlockRow row_of(const PackBlock& block) {
 }
 
 Result<StreamEntry> entry_of(const PackStream& stream, size_t index) {
-  const auto wrong = [&](std::string reason) { return fail("stream " + std::to_string(index), std::move(reason)); };
-  if (stream.blocks.size() > max_stream_blocks) return wrong("has too many blocks");
-  if (stream.parameters.size() > max_parameter_bytes) return wrong("its parameters are too long");
-  if (!(stream.error >= 0 && std::isfinite(stream.error))) return wrong("its error is not a positive number");
+  const auto wrong = [&](ErrorKind kind, std::string_view reason) {
+    return fail(kind, "stream " + std::to_string(index), reason);
+  };
+  if (stream.blocks.size() > max_stream_blocks) return wrong(ErrorKind::limit, "has too many blocks");
+  if (stream.parameters.size() > max_parameter_bytes) return wrong(ErrorKind::limit, "its parameters are too long");
+  if (!(stream.error >= 0 && std::isfinite(stream.error)))
+    return wrong(ErrorKind::bad_input, "its error is not a positive number");
   for (const PackBlock& block : stream.blocks) {
-    if (block.payload.empty()) return wrong("has an empty block");
-    if (block.payload.size() > max_block_bytes - block_check_bytes) return wrong("has a block of more than 16 MiB");
-    if (!(block.error >= 0 && std::isfinite(block.error))) return wrong("a block's error is not a positive number");
+    if (block.payload.empty()) return wrong(ErrorKind::bad_input, "has an empty block");
+    if (block.payload.size() > max_block_bytes - block_check_bytes)
+      return wrong(ErrorKind::limit, "has a block of more than 16 MiB");
+    if (!(block.error >= 0 && std::isfinite(block.error)))
+      return wrong(ErrorKind::bad_input, "a block's error is not a positive number");
   }
   StreamEntry entry;
   entry.kind = stream.kind;
@@ -67,7 +72,7 @@ size_t padded(size_t length) { return (length + 3) / 4 * 4; }
 }  // namespace
 
 Result<PackWriter> PackWriter::create(std::vector<uint8_t> bin, std::vector<PackStream> streams) {
-  if (streams.size() > max_streams) return fail("pack", "has more than 65536 streams");
+  if (streams.size() > max_streams) return fail(ErrorKind::limit, "pack", "has more than 65536 streams");
   PackWriter writer;
   bin.resize(padded(bin.size()));
   writer.bin_ = std::move(bin);
@@ -86,7 +91,7 @@ Result<PackWriter> PackWriter::create(std::vector<uint8_t> bin, std::vector<Pack
 
   Directory directory{writer.plan_.id, 0, 0, writer.plan_.streams};
   const size_t directory_length = directory.byte_length();
-  if (directory_length > max_directory_bytes) return fail("pack", "its directory exceeds 64 MiB");
+  if (directory_length > max_directory_bytes) return fail(ErrorKind::limit, "pack", "its directory exceeds 64 MiB");
   ByteWriter data;
   for (size_t i = 0; i < payloads.size(); i++) {
     const size_t begin = data.size();
@@ -94,7 +99,8 @@ Result<PackWriter> PackWriter::create(std::vector<uint8_t> bin, std::vector<Pack
       data.append(payload);
       data.u32(block_check(payload, writer.plan_.id));
     }
-    if (directory_length + data.size() > max_file_bytes) return fail("pack", "exceeds the 4 GiB of a binary glTF");
+    if (directory_length + data.size() > max_file_bytes)
+      return fail(ErrorKind::limit, "pack", "exceeds the 4 GiB of a binary glTF");
     writer.plan_.streams[i].first = static_cast<uint32_t>(directory_length + begin);
     writer.plan_.streams[i].length = static_cast<uint32_t>(data.size() - begin);
     payloads[i].clear();
@@ -110,7 +116,8 @@ Result<std::vector<uint8_t>> PackWriter::finish(std::string json) const {
   const uint64_t bin_length = bin_.empty() ? 0 : chunk_header_bytes + bin_.size();
   const uint64_t opening =
       uint64_t(glb_header_bytes) + chunk_header_bytes + json.size() + bin_length + chunk_header_bytes;
-  if (opening + chunk_length > max_file_bytes) return fail("pack", "exceeds the 4 GiB of a binary glTF");
+  if (opening + chunk_length > max_file_bytes)
+    return fail(ErrorKind::limit, "pack", "exceeds the 4 GiB of a binary glTF");
 
   ByteWriter file;
   file.u32(glb_magic);

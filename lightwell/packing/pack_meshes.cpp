@@ -110,7 +110,7 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
     simplified[i].reset();
     count.add(mesh_of(i).positions.size());
   });
-  if (progress.cancelled()) return fail("meshes", "cancelled");
+  if (progress.cancelled()) return fail(ErrorKind::cancelled, "meshes", "cancelled");
 
   std::vector<StreamedMesh> streamed;
   // A mesh of degenerate faces only has no coarsest level: it stays in the opening as it is.

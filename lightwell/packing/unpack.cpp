@@ -121,7 +121,10 @@ void drop_extensions(Json& json) {
 
 }  // namespace
 
-Result<Json> pack_json(const PackReader& pack) { return parse_json(glb_chunks(pack.opening()).json); }
+Result<Json> pack_json(const PackReader& pack) {
+  const Bytes opening = pack.opening(), json = glb_chunks(opening).json;
+  return parse_json(json, static_cast<uint64_t>(json.data() - opening.data()));
+}
 
 Bytes pack_bin(const PackReader& pack) { return glb_chunks(pack.opening()).bin; }
 

@@ -42,7 +42,7 @@ Result<StreamDecoder> open_stream(const PackReader& pack, const StreamEntry& ent
                                   [](const TextureDecoder& d) { return uint64_t(d.file().size()); });
     }
   }
-  return fail("", "an unknown kind");
+  return fail(ErrorKind::unsupported, "", "an unknown kind");
 }
 
 // Decodes a stream to its end and checks what each row promises.

@@ -21,7 +21,7 @@ tl::unexpected<Error> exr_failure(const char* message) {
   std::string reason = message ? message : "not readable";
   FreeEXRErrorMessage(message);
   while (!reason.empty() && (reason.back() == '\n' || reason.back() == '.')) reason.pop_back();
-  return fail("EXR", std::move(reason));
+  return fail("EXR", reason);
 }
 
 // tinyexr's header, freed also after a failure.
@@ -46,7 +46,7 @@ Result<void> read_header(Bytes file, Header& header) {
   if (ParseEXRVersionFromMemory(&version, file.data(), file.size()) != TINYEXR_SUCCESS)
     return fail("EXR", "broken header");
   if (version.multipart || version.non_image || version.tiled)
-    return fail("EXR", "is tiled, deep or has several parts");
+    return fail(ErrorKind::unsupported, "EXR", "is tiled, deep or has several parts");
   const char* message = nullptr;
   if (ParseEXRHeaderFromMemory(&header, &version, file.data(), file.size(), &message) != TINYEXR_SUCCESS) {
     return exr_failure(message);

@@ -73,7 +73,8 @@ Result<Picture> read_image(Bytes file) {
 Result<Picture> read_picture(Bytes file) {
   if (is_exr(file)) return read_exr(file);
   if (is_pfm(file)) return read_pfm(file);
-  if (!image_format(file)) return fail("", "is no picture: neither PNG, JPEG, WebP, OpenEXR nor PFM");
+  if (!image_format(file))
+    return fail(ErrorKind::unsupported, "", "is no picture: neither PNG, JPEG, WebP, OpenEXR nor PFM");
   return read_image(file);
 }
 

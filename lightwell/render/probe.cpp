@@ -60,7 +60,7 @@ Result<std::vector<ProbeValue>> probe(const World& world, std::span<const ProbeP
         progress.advance(static_cast<double>(done += end - begin));
       },
       [&] { return progress.cancelled(); });
-  if (progress.cancelled()) return fail("probe", "cancelled");
+  if (progress.cancelled()) return fail(ErrorKind::cancelled, "probe", "cancelled");
   return values;
 }
 

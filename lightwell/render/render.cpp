@@ -95,7 +95,7 @@ Result<Picture> render(const World& world, const Camera& camera, const RenderOpt
         progress.advance(static_cast<double>(rows += end - begin));
       },
       [&] { return progress.cancelled(); });
-  if (progress.cancelled()) return fail("picture", "cancelled");
+  if (progress.cancelled()) return fail(ErrorKind::cancelled, "picture", "cancelled");
   statistics.rays = rays;
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return picture;

@@ -183,7 +183,7 @@ class Importer {
       return fail(name + ".EXT_mesh_gpu_instancing", "its attributes have different counts");
     placed_ += count;
     if (placed_ > allowed_.instances)
-      return fail(name + ".EXT_mesh_gpu_instancing", "places more than the file can hold");
+      return fail(ErrorKind::limit, name + ".EXT_mesh_gpu_instancing", "places more than the file can hold");
     std::vector<Transform> transforms;
     for (size_t i = 0; i < count; i++) {
       const Transform local =
@@ -204,7 +204,7 @@ class Importer {
     const int accessor = index_of(member(instancing, "attributes"), semantic);
     if (accessor < 0) return {};
     auto data = locate(scene_.document, accessor);
-    if (!data) return fail(Error{"", name + ".EXT_mesh_gpu_instancing." + semantic, data.error().message()});
+    if (!data) return fail(in_element(data.error(), name + ".EXT_mesh_gpu_instancing." + semantic));
     if (data->type.rows != N || data->type.columns != 1 || data->count > max_instances)
       return fail(name + ".EXT_mesh_gpu_instancing." + semantic, "is of a type or count that it cannot have");
     values = read_vectors<N>(*data);
@@ -256,7 +256,8 @@ class Importer {
       const int material = index_of(primitives[p], "material");
       scene_.primitives.push_back({std::move(read), material, mesh, static_cast<int>(p), deforms || all_animated});
       faces_ += scene_.primitives.back().mesh.faces.size();
-      if (faces_ > max_faces) return fail(name, "the scene has more than " + std::to_string(max_faces) + " triangles");
+      if (faces_ > max_faces)
+        return fail(ErrorKind::limit, name, "the scene has more than " + std::to_string(max_faces) + " triangles");
       if (!deforms) LW_CHECK(place_instances(uses));
     }
     return {};
@@ -267,7 +268,7 @@ class Importer {
     for (const MeshUse* use : uses) {
       if (use->animated) continue;
       if (scene_.instances.size() + use->to_scene.size() > max_instances)
-        return fail("nodes", "place more than " + std::to_string(max_instances) + " instances");
+        return fail(ErrorKind::limit, "nodes", "place more than " + std::to_string(max_instances) + " instances");
       for (const Transform& transform : use->to_scene)
         scene_.instances.push_back({static_cast<int>(scene_.primitives.size()) - 1, transform, use->node});
     }

@@ -127,9 +127,9 @@ Result<Image> decode_image(const Document& document, int index) {
   constexpr std::string_view ktx2 = "\xabKTX 20";
   if (bytes.size() > ktx2.size() && std::equal(ktx2.begin(), ktx2.end(), bytes.begin(),
                                                [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; }))
-    return fail(name, "KHR_texture_basisu is not supported");
+    return fail(ErrorKind::unsupported, name, "KHR_texture_basisu is not supported");
   auto image = read_image_file(bytes);
-  if (!image) return fail(Error{"", name, image.error().message()});
+  if (!image) return fail(in_element(image.error(), name));
   return image;
 }
 
@@ -157,7 +157,8 @@ std::vector<Image> read_images(const Document& document, Report& report) {
   for (size_t i = 0; i < member(document.json, "images").size(); i++) {
     auto image = decode_image(document, static_cast<int>(i));
     if (image) pixels += uint64_t(static_cast<uint32_t>(image->width)) * static_cast<uint32_t>(image->height);
-    if (image && pixels > max_pixels) image = fail(element_name("images", i), "too many pixels in all images together");
+    if (image && pixels > max_pixels)
+      image = fail(ErrorKind::limit, element_name("images", i), "too many pixels in all images together");
     if (!image) {
       report.warn(image.error().message() + "; a white pixel stands for it");
       image = Image{1, 1, 3, {255, 255, 255}};

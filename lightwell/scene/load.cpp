@@ -67,10 +67,11 @@ Result<Document> document_of(Bytes file, const std::filesystem::path& folder, Re
   if (file.empty()) return fail("", "is empty");
   // A PLY or OBJ file may begin like an STL, but not the other way round.
   if (is_ply(file)) return ply_document(file, report);
-  if (const auto format = unsupported_format(file)) return fail("", "cannot be read: it is " + *format);
+  if (const auto format = unsupported_format(file))
+    return fail(ErrorKind::unsupported, "", "cannot be read: it is " + *format);
   if (is_gltf(file)) return read_document(file, folder, report);
   if (is_obj(file)) return obj_document(file, folder, report);
-  return fail("", "is neither glTF, OBJ nor PLY");
+  return fail(ErrorKind::unsupported, "", "is neither glTF, OBJ nor PLY");
 }
 
 /// "dragon" of "scans/dragon.ply.gz".
@@ -95,7 +96,7 @@ Result<Scene> load_scene(const std::string& path, const ImportOptions& options, 
     return scene_from_document(builtin->make(options.seed), path, report);
   std::error_code code;
   if (!std::filesystem::exists(path, code))
-    return fail({path, "", "no such file, nor one of the built-in scenes " + list_of_builtin_scenes()});
+    return fail({path, "", "no such file, nor one of the built-in scenes " + list_of_builtin_scenes(), ErrorKind::io});
   auto scene = load_file(path, options, report);
   if (!scene) return fail(in_file(std::move(scene.error()), path));
   return scene;

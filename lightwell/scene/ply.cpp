@@ -120,7 +120,7 @@ Result<void> read_vertices(const PlyElement& element, PlyValues& values, Polygon
   const VertexLayout layout(element);
   if (polygons.has_vertices) return fail("header", "has vertices twice");
   if (!layout.has_position()) return fail("header", "vertices without x, y and z");
-  if (element.count >= UINT32_MAX) return fail("header", "has too many vertices");
+  if (element.count >= UINT32_MAX) return fail(ErrorKind::limit, "header", "has too many vertices");
   polygons.has_vertices = true;
   polygons.mesh.positions.reserve(element.count);
   for (uint64_t i = 0; i < element.count; i++) {

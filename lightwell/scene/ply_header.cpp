@@ -165,7 +165,7 @@ Result<PlyHeader> read_ply_header(Bytes file) {
     } else if (words[0] == "property" && !header.elements.empty()) {
       LW_TRY(property, property_of(*line, words));
       header.elements.back().properties.push_back(std::move(property));
-      if (++properties > most_properties) return fail("header", "has too many properties");
+      if (++properties > most_properties) return fail(ErrorKind::limit, "header", "has too many properties");
     } else {
       return not_understood(*line);
     }

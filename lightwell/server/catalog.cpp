@@ -110,16 +110,16 @@ Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path
       catalog.folders_.push_back(path);
       continue;
     }
-    if (!is_file(path)) return fail(Error{path.string(), "", "there is no such file or folder"});
+    if (!is_file(path)) return fail({path.string(), "", "there is no such file or folder", ErrorKind::io});
     const bool twice =
         std::ranges::any_of(catalog.files_, [&](const fs::path& other) { return other.filename() == path.filename(); });
-    if (twice) return fail(Error{path.string(), "", "another pack has the same name"});
+    if (twice) return fail({path.string(), "", "another pack has the same name"});
     LW_CHECK(PackReader::open_file(path.string()));
     catalog.files_.push_back(path);
   }
   std::error_code missing;
   if (!page.empty() && !fs::is_directory(page, missing))
-    return fail(Error{page.string(), "", "there is no such folder"});
+    return fail({page.string(), "", "there is no such folder", ErrorKind::io});
   catalog.page_ = page;
   return catalog;
 }

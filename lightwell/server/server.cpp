@@ -207,10 +207,10 @@ class Server::Loop {
     if (!error) port_ = acceptor_.local_endpoint(error).port();
     if (error) {
       const std::string hint = error == asio::error::address_in_use ? "; --port 0 takes a free one" : "";
-      return fail(options_.bind + ":" + std::to_string(options_.port), error.message() + hint);
+      return fail(ErrorKind::io, options_.bind + ":" + std::to_string(options_.port), error.message() + hint);
     }
     stop_event_.assign(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), error);
-    if (error) return fail("server", error.message());
+    if (error) return fail(ErrorKind::io, "server", error.message());
     std::signal(SIGPIPE, SIG_IGN);
     return {};
   }

@@ -35,19 +35,19 @@ Result<void> check_image_size(uint64_t width, uint64_t height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   if (width == 0 || height == 0) return fail(size, "an empty image");
   if (width > max_image_side || height > max_image_side || width * height > max_image_pixels)
-    return fail(size, "an image may have " + std::to_string(max_image_side) + " pixels a side");
+    return fail(ErrorKind::limit, size, "an image may have " + std::to_string(max_image_side) + " pixels a side");
   return {};
 }
 
 Result<Image> read_image_file(Bytes file) {
   const auto format = image_format(file);
-  if (!format) return fail("image", "is no PNG, JPEG or WebP");
+  if (!format) return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG or WebP");
   switch (*format) {
     case ImageFormat::png: return read_png(file);
     case ImageFormat::jpeg: return read_jpeg(file);
     case ImageFormat::webp: return read_webp(file);
   }
-  return fail("image", "is no PNG, JPEG or WebP");
+  return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG or WebP");
 }
 
 std::vector<uint8_t> write_preview(const Image& image, int longest_side, bool color) {

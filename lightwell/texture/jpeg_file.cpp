@@ -127,7 +127,7 @@ Result<Image> read_jpeg(Bytes file) {
   if (!start(r, file)) return fail("JPEG", r.handler.message);
   const int channels = r.codec.num_components;
   if (channels != 1 && channels != 3 && channels != 4)
-    return fail("JPEG", "has " + std::to_string(channels) + " components");
+    return fail(ErrorKind::unsupported, "JPEG", "has " + std::to_string(channels) + " components");
   LW_CHECK(check_image_size(r.codec.image_width, r.codec.image_height));
   if (uint64_t(r.codec.image_width) * r.codec.image_height > file.size() * most_pixels_a_byte)
     return fail("JPEG", "the file is too short for its size");

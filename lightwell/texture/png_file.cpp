@@ -84,7 +84,7 @@ Result<Image> read_png(Bytes file) {
   Reading r(file);
   r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r, on_read_error, on_warning);
   r.info = r.png ? png_create_info_struct(r.png) : nullptr;
-  if (!r.info) return fail("PNG", "out of memory");
+  if (!r.info) return fail(ErrorKind::limit, "PNG", "out of memory");
   if (!start(r)) return fail("PNG", r.error);
   const size_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
   LW_CHECK(check_image_size(width, height));

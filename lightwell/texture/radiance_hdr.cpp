@@ -43,7 +43,7 @@ bool parse(std::string_view text, T& value) {
 /// One line of the header: the format and the exposure matter, of several exposures the product.
 Result<void> read_variable(std::string_view line, Header& header) {
   if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-    return fail("HDR", "unsupported " + std::string(line.substr(0, 40)));
+    return fail(ErrorKind::unsupported, "HDR", "unsupported " + std::string(line.substr(0, 40)));
   if (!line.starts_with("EXPOSURE=")) return {};
   line.remove_prefix(line.find_first_not_of(" \t", 9) == line.npos ? line.size() : line.find_first_not_of(" \t", 9));
   double exposure = 0;
@@ -63,10 +63,10 @@ Result<void> read_resolution(const std::string& line, Header& header) {
   const bool rows_first = words[0] == "-Y" || words[0] == "+Y";
   const bool columns_next = words[2] == "-X" || words[2] == "+X";
   if (!rows_first || !columns_next || !parse(words[1], header.height) || !parse(words[3], header.width))
-    return fail("HDR", "unsupported resolution \"" + line.substr(0, 40) + "\"");
+    return fail(ErrorKind::unsupported, "HDR", "unsupported resolution \"" + line.substr(0, 40) + "\"");
   if (header.width == 0 || header.height == 0) return fail("HDR", "an empty image");
   if (header.width >= max_side || header.height >= max_side || header.width * header.height > max_pixels)
-    return fail("HDR", words[3] + " x " + words[1] + " pixels are too many");
+    return fail(ErrorKind::limit, "HDR", words[3] + " x " + words[1] + " pixels are too many");
   header.bottom_up = words[0] == "+Y";
   header.right_to_left = words[2] == "-X";
   return {};

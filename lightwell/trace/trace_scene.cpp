@@ -63,7 +63,7 @@ TraceScene::~TraceScene() {
 
 Result<void> TraceScene::commit(int threads) {
   device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
-  if (!device_) return fail("Embree", "cannot start");
+  if (!device_) return fail(ErrorKind::io, "Embree", "cannot start");
   embree_ = rtcNewScene(device_);
   rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
   for (const Instance& instance : scene_.instances) uses_[static_cast<size_t>(instance.primitive)]++;
@@ -71,7 +71,7 @@ Result<void> TraceScene::commit(int threads) {
   for (uint32_t i = 0; i < placed_.size(); i++) place(i);
   rtcCommitScene(embree_);
   if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
-    return fail("Embree", "not enough memory for the scene's triangles");
+    return fail(ErrorKind::limit, "Embree", "not enough memory for the scene's triangles");
 
   RTCBounds box;
   rtcGetSceneBounds(embree_, &box);
@@ -96,7 +96,8 @@ Result<void> TraceScene::check_extent() const {
         if (corner >> axis & 1) p[axis] = box.hi[axis];
       const Vec3f placed = instance.to_scene.point(p);
       if (!(max_component(max(placed, -placed)) <= farthest_position))
-        return fail("node " + std::to_string(instance.node), "its mesh reaches farther than 1e9 m from the origin");
+        return fail(ErrorKind::limit, "node " + std::to_string(instance.node),
+                    "its mesh reaches farther than 1e9 m from the origin");
     }
   }
   return {};

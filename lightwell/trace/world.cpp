@@ -6,7 +6,8 @@ namespace lightwell {
 Result<std::unique_ptr<const World>> World::build(const Scene& scene, int threads) {
   LW_TRY(surfaces, TraceScene::build(scene, threads));
   std::unique_ptr<const World> world(new World(std::move(surfaces)));
-  if (!world->lights().finite()) return fail("lights", "they are too bright: their power is beyond a float");
+  if (!world->lights().finite())
+    return fail(ErrorKind::limit, "lights", "they are too bright: their power is beyond a float");
   return world;
 }
 

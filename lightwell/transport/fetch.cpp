@@ -126,14 +126,14 @@ Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::func
   Watcher watcher(apply);
   Listener listener(guard, transport.now());
   while (!client.ended()) {
-    if (guard.cancelled && guard.cancelled()) return fail("fetch", "was cancelled");
+    if (guard.cancelled && guard.cancelled()) return fail(ErrorKind::cancelled, "fetch", "was cancelled");
     perform(client, transport);
     listener.look(client, silence);
     const double now = transport.now();
     const double until = std::min({client.wake(), now + longest_wait, listener.end()});
     const std::optional<TransportEvent> event = transport.wait(until);
     // What waits is heard first: the process may have slept.
-    if (!event && transport.now() >= listener.end()) return fail("", listener.last_words());
+    if (!event && transport.now() >= listener.end()) return fail(ErrorKind::io, "", listener.last_words());
     if (event) {
       listener.hear(*event, transport.now());
       report(client, *event, transport.now());

@@ -175,7 +175,7 @@ class HttpTransport final : public Transport {
     error_code error;
     tcp::resolver resolver(exchange_.io);
     exchange_.addresses = resolver.resolve(url.host, url.port, error);
-    if (error) return fail(url.host, error.message());
+    if (error) return fail(ErrorKind::io, url.host, error.message());
     exchange_.url = std::move(url);
     return {};
   }

@@ -2,17 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <fstream>
 #include <set>
 
 #include "lightwell/base/bytes.h"
 #include "lightwell/base/crc32c.h"
-#include "lightwell/base/file.h"
 #include "lightwell/base/half.h"
 #include "lightwell/base/parallel.h"
 #include "lightwell/base/random.h"
 #include "lightwell/base/transform.h"
-#include "tests/base/gzipped.h"
 
 namespace lightwell {
 namespace {
@@ -94,43 +91,6 @@ TEST(Transform, InverseAndNormalAreRight) {
     EXPECT_NEAR(dot(n, normalized(m.vector(a))), 0, 1e-5);  // a tangent stays perpendicular; float vectors
     EXPECT_NEAR(dot(n, normalized(m.vector(b))), 0, 1e-5);
   }
-}
-
-TEST(File, IsWrittenAsAWholeOrNotAtAll) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_file_test";
-  ASSERT_TRUE(write_file(path, as_bytes("first")));
-  auto failing = write_file(path, [](const std::function<bool(Bytes)>& append) -> Result<void> {
-    append(as_bytes("half"));
-    return fail("the middle", "failed");
-  });
-  ASSERT_FALSE(failing);
-  EXPECT_EQ(failing.error().message(), path.string() + ": the middle: failed");
-  EXPECT_EQ(read_file(path)->size(), 5u);
-  std::filesystem::remove(path);
-  EXPECT_FALSE(read_file(path));
-  EXPECT_FALSE(read_file(std::filesystem::path(testing::TempDir())));
-  EXPECT_FALSE(write_file(testing::TempDir(), as_bytes("a folder")));
-}
-
-// Tools that pack in parallel or in blocks (bgzip) write many members, the last one empty.
-TEST(File, IsInflatedMemberByMember) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_gzip_test";
-  const auto inflated = [&](const std::string& packed) {
-    EXPECT_TRUE(write_file(path, as_bytes(packed)));
-    const auto bytes = read_file(path, true, 100);
-    return bytes ? std::string(bytes->begin(), bytes->end()) : "error";
-  };
-  const std::string first = gzipped("v 0 0 0\n"), second = gzipped("v 1 0 0\n");
-  EXPECT_EQ(inflated(first + second + gzipped("")), "v 0 0 0\nv 1 0 0\n");
-  EXPECT_EQ(inflated(first + second.substr(0, second.size() - 1)), "error");
-  EXPECT_EQ(inflated(first + "rubbish"), "error");
-  EXPECT_EQ(inflated(first + gzipped(std::string(99, 'v'))), "error") << "beyond the limit together";
-  std::filesystem::remove(path);
-}
-
-TEST(File, ThatIsADeviceIsWrittenToAndNotReplaced) {
-  EXPECT_TRUE(write_file("/dev/null", as_bytes("nothing")));
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
 }  // namespace

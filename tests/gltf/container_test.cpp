@@ -91,7 +91,7 @@ TEST(Container, ReadsJsonWithAByteOrderMark) {
 }
 
 TEST(Container, JsonFaultsAreNamed) {
-  EXPECT_EQ(error_of(bytes_of("{\"asset\":}")), "JSON: syntax error at byte 10");
+  EXPECT_EQ(error_of(bytes_of("{\"asset\":}")), "JSON: syntax error (at byte 9)");
   EXPECT_EQ(error_of(bytes_of("[1e999]")), "JSON: holds a number that is too large");
   EXPECT_EQ(error_of(bytes_of("[]")), "JSON: is not an object");
   EXPECT_EQ(error_of(bytes_of(std::string(100000, '['))), "JSON: is nested deeper than 128 levels");
