@@ -18,7 +18,7 @@ void stop_server(int) {
   if (running != nullptr) running->stop();
 }
 
-// A sentence for who looks at a terminal, a line of JSON for a program.
+// Prints a sentence on a terminal, a line of JSON for a program.
 void announce(const std::string& url, const Console& console) {
   if (!console.json && isatty(STDOUT_FILENO) != 0)
     std::printf("Lightwell is at %s until you press Ctrl-C.\n", url.c_str());
@@ -35,8 +35,7 @@ int serve(const ServerOptions& options, bool open, const Console& console) {
   running = &*server;
   std::signal(SIGINT, stop_server);
   std::signal(SIGTERM, stop_server);
-  const std::string host = options.bind.find(':') == std::string::npos ? options.bind : "[" + options.bind + "]";
-  const std::string url = "http://" + host + ":" + std::to_string(server->port()) + "/";
+  const std::string url = server->url();
   for (const std::filesystem::path& folder : server->catalog().empty_folders())
     console.warn(folder.string() + ": there is no pack in it yet");
   announce(url, console);

@@ -99,14 +99,12 @@ Result<PackReader> PackReader::open_file(const std::string& path) {
 }
 
 // Only the headers are read: a folder may hold many packs with large openings.
-bool is_pack_file(const std::string& path) {
-  const auto file = open_bytes(path);
-  if (!file) return false;
-  const auto header = file->fetch(0, glb_header_bytes);
+bool is_pack(const FetchBytes& fetch) {
+  const auto header = fetch(0, glb_header_bytes);
   if (!header || ByteReader(*header).u32() != glb_magic) return false;
   uint64_t at = glb_header_bytes;
   for (const uint32_t expected : {chunk_json, chunk_bin, chunk_lwst}) {
-    const auto chunk = file->fetch(at, chunk_header_bytes);
+    const auto chunk = fetch(at, chunk_header_bytes);
     if (!chunk) return false;
     ByteReader reader(*chunk);
     const uint32_t length = reader.u32(), type = reader.u32();
@@ -115,6 +113,11 @@ bool is_pack_file(const std::string& path) {
     at += chunk_header_bytes + length;
   }
   return false;
+}
+
+bool is_pack_file(const std::string& path) {
+  const auto file = open_bytes(path);
+  return file && is_pack(file->fetch);
 }
 
 Result<std::vector<uint8_t>> PackReader::block(size_t stream, uint32_t index) const {

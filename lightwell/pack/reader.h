@@ -40,8 +40,10 @@ class PackReader {
   std::vector<BlockTable> tables_;
 };
 
-/// Whether a file begins as a pack does: its chunks are JSON, BIN and LWST. What is in them may be damaged. False also
-/// when the file cannot be read.
+/// Whether bytes are those of a pack, as far as their headers say: the chunks are JSON, BIN and LWST. What is in them
+/// may be damaged. False also when they cannot be read.
+bool is_pack(const FetchBytes& fetch);
+/// The same of a file.
 bool is_pack_file(const std::string& path);
 
 }  // namespace lightwell

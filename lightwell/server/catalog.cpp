@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "lightwell/base/hex.h"
 #include "lightwell/pack/reader.h"
@@ -58,46 +59,21 @@ std::string json_string(std::string_view text) {
   return json + '"';
 }
 
-/// A name that stays in its folder and is not hidden.
-bool is_plain_name(std::string_view name) {
-  return !name.empty() && name.front() != '.' && name.find_first_of("/\\") == std::string_view::npos &&
-         name.find('\0') == std::string_view::npos;
-}
-
-bool is_pack_name(std::string_view name) { return is_plain_name(name) && name.ends_with(".glb"); }
-
 bool is_file(const fs::path& path) {
   std::error_code none;
   return fs::is_regular_file(path, none);
 }
 
-std::vector<fs::path> packs_in(const fs::path& folder) {
-  std::vector<fs::path> packs;
-  std::error_code gone;
-  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end; entry.increment(gone)) {
-    const fs::path& file = entry->path();
-    if (is_pack_name(file.filename().string()) && is_file(file) && is_pack_file(file.string())) packs.push_back(file);
-  }
-  return packs;
-}
-
-/// A file below a folder, named by a path of plain names. What links lead to must be below the folder, too.
-std::optional<fs::path> file_below(const fs::path& folder, std::string_view relative) {
-  fs::path path = folder;
-  for (size_t at = 0; at <= relative.size();) {
-    const size_t end = std::min(relative.find('/', at), relative.size());
-    const std::string_view name = relative.substr(at, end - at);
-    if (!is_plain_name(name)) return std::nullopt;
-    path /= name;
-    at = end + 1;
-  }
-  std::error_code missing;
-  const fs::path real = fs::canonical(path, missing);
-  if (missing || !is_file(real)) return std::nullopt;
-  const fs::path root = fs::canonical(folder, missing);
-  if (missing || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
-    return std::nullopt;
-  return real;
+std::string_view content_type(const fs::path& name) {
+  static const std::map<std::string, std::string_view> types = {
+      {".css", "text/css; charset=utf-8"},        {".glb", "model/gltf-binary"}, {".gltf", "model/gltf+json"},
+      {".html", "text/html; charset=utf-8"},      {".ico", "image/x-icon"},      {".jpg", "image/jpeg"},
+      {".js", "text/javascript; charset=utf-8"},  {".json", "application/json"}, {".map", "application/json"},
+      {".mjs", "text/javascript; charset=utf-8"}, {".png", "image/png"},         {".svg", "image/svg+xml"},
+      {".txt", "text/plain; charset=utf-8"},      {".wasm", "application/wasm"}, {".webp", "image/webp"},
+  };
+  const auto found = types.find(name.extension().string());
+  return found == types.end() ? "application/octet-stream" : found->second;
 }
 
 }  // namespace
@@ -107,7 +83,7 @@ Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path
   for (const fs::path& path : packs) {
     std::error_code missing;
     if (fs::is_directory(path, missing)) {
-      catalog.folders_.push_back(path);
+      LW_CHECK(catalog.folders_.emplace_back(path).packs());
       continue;
     }
     if (!is_file(path)) return fail({path.string(), "", "there is no such file or folder", ErrorKind::io});
@@ -124,30 +100,33 @@ Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path
   return catalog;
 }
 
-std::vector<Catalog::Pack> Catalog::packs() const {
-  std::map<std::string, fs::path> found;
-  for (const fs::path& file : files_) found.emplace(file.filename().string(), file);
-  for (const fs::path& folder : folders_)
-    for (const fs::path& file : packs_in(folder)) found.emplace(file.filename().string(), file);
-  std::vector<Pack> packs;
-  for (const auto& [name, file] : found) {
+Result<std::vector<ServedPack>> Catalog::packs() {
+  std::map<std::string, uint64_t> found;
+  for (const fs::path& file : files_) {
     std::error_code gone;
     const uint64_t bytes = fs::file_size(file, gone);
-    if (!gone) packs.push_back({name, file, bytes});
+    if (!gone) found.emplace(file.filename().string(), bytes);
   }
+  for (PackFolder& folder : folders_) {
+    LW_TRY(packs, folder.packs());
+    for (ServedPack& pack : packs) found.emplace(std::move(pack.name), pack.bytes);
+  }
+  std::vector<ServedPack> packs;
+  for (const auto& [name, bytes] : found) packs.push_back({name, bytes});
   return packs;
 }
 
-std::vector<fs::path> Catalog::empty_folders() const {
+std::vector<fs::path> Catalog::empty_folders() {
   std::vector<fs::path> empty;
-  for (const fs::path& folder : folders_)
-    if (packs_in(folder).empty()) empty.push_back(folder);
+  for (PackFolder& folder : folders_)
+    if (const auto packs = folder.packs(); packs && packs->empty()) empty.push_back(folder.path());
   return empty;
 }
 
-std::string Catalog::packs_json() const {
+Result<std::string> Catalog::packs_json() {
+  LW_TRY(packs, this->packs());
   std::string json = "{\"packs\":[";
-  for (const Pack& pack : packs()) {
+  for (const ServedPack& pack : packs) {
     if (json.back() == '}') json += ',';
     json += "{\"name\":" + json_string(pack.name) + ",\"url\":\"" + std::string(pack_prefix) +
             encode_percent(pack.name) + "\",\"bytes\":" + std::to_string(pack.bytes) + "}";
@@ -155,33 +134,29 @@ std::string Catalog::packs_json() const {
   return json + "]}\n";
 }
 
-std::optional<fs::path> Catalog::file(std::string_view url_path) const {
-  const std::optional<std::string> path = decode_percent(url_path);
-  if (!path || path->empty() || path->front() != '/') return std::nullopt;
-  if (path->starts_with(pack_prefix)) {
-    const std::string name = path->substr(pack_prefix.size());
-    for (const fs::path& file : files_)
-      if (file.filename() == name && is_file(file)) return file;
-    for (const fs::path& folder : folders_) {
-      const fs::path file = folder / name;
-      if (is_pack_name(name) && is_file(file)) return file;
-    }
-    return std::nullopt;
+Result<OpenFile> Catalog::pack(const std::string& name) {
+  for (const fs::path& file : files_)
+    if (file.filename() == name && is_file(file)) return OpenFile::open(file);
+  Result<OpenFile> pack = fail(ErrorKind::io, name, "there is no such pack");
+  for (PackFolder& folder : folders_) {
+    pack = folder.open(name);
+    if (pack || pack.error().kind == ErrorKind::limit) break;
   }
-  if (page_.empty()) return std::nullopt;
-  return file_below(page_, *path == "/" ? "index.html" : std::string_view(*path).substr(1));
+  return pack;
 }
 
-std::string_view content_type(const fs::path& file) {
-  static const std::map<std::string, std::string_view> types = {
-      {".css", "text/css; charset=utf-8"},        {".glb", "model/gltf-binary"}, {".gltf", "model/gltf+json"},
-      {".html", "text/html; charset=utf-8"},      {".ico", "image/x-icon"},      {".jpg", "image/jpeg"},
-      {".js", "text/javascript; charset=utf-8"},  {".json", "application/json"}, {".map", "application/json"},
-      {".mjs", "text/javascript; charset=utf-8"}, {".png", "image/png"},         {".svg", "image/svg+xml"},
-      {".txt", "text/plain; charset=utf-8"},      {".wasm", "application/wasm"}, {".webp", "image/webp"},
-  };
-  const auto found = types.find(file.extension().string());
-  return found == types.end() ? "application/octet-stream" : found->second;
+Result<Catalog::File> Catalog::file(std::string_view url_path) {
+  const std::optional<std::string> path = decode_percent(url_path);
+  if (!path || path->empty() || path->front() != '/') return fail("", "is no path of a URL");
+  if (path->starts_with(pack_prefix)) {
+    LW_TRY(open, pack(path->substr(pack_prefix.size())));
+    return File{std::move(open), content_type(*path)};
+  }
+  const std::string name = *path == "/" ? "index.html" : path->substr(1);
+  const auto place = page_.empty() ? std::nullopt : file_below(page_, name);
+  if (!place) return fail(ErrorKind::io, name, "there is no such file");
+  LW_TRY(open, OpenFile::open(*place));
+  return File{std::move(open), content_type(name)};
 }
 
 }  // namespace lightwell

@@ -2,46 +2,45 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "lightwell/base/result.h"
+#include "lightwell/server/pack_folder.h"
 
 namespace lightwell {
 
-/// What a server has to give: packs by name, and the files of the page. Folders are looked at when somebody asks, so a
-/// pack that is added to one is served at once. Nothing outside of what was named is ever given.
+/// All that a server gives: packs by name, and the files of the page. Folders are looked at when somebody asks, so a
+/// pack that is added to one is served at once. Nothing outside of what was named is ever given. For one thread at a
+/// time.
 class Catalog {
  public:
-  /// `packs`: packs, or folders whose *.glb are meant; a pack's name is its file name. `page`: the folder of the page,
-  /// or empty. Fails when one does not exist, a file is no pack, or two files have the same name.
+  /// `packs`: packs, or folders of packs (see PackFolder); a pack's name is its file name. `page`: the folder of the
+  /// page, or empty. Fails when one does not exist, a file is no pack, or two files have the same name.
   static Result<Catalog> open(const std::vector<std::filesystem::path>& packs, const std::filesystem::path& page);
 
-  struct Pack {
-    std::string name;
-    std::filesystem::path file;
-    uint64_t bytes = 0;
-  };
-  /// All packs, by name. Of a folder, other *.glb are left out.
-  std::vector<Pack> packs() const;
+  /// All packs, in the order of their names; of two with one name the first that was given. Fails as PackFolder does.
+  Result<std::vector<ServedPack>> packs();
   /// Those of the folders that hold no pack so far.
-  std::vector<std::filesystem::path> empty_folders() const;
+  std::vector<std::filesystem::path> empty_folders();
   /// The list as JSON: {"packs": [{"name": ..., "url": "/packs/...", "bytes": ...}, ...]}.
-  std::string packs_json() const;
+  Result<std::string> packs_json();
 
-  /// The file behind the path of a URL, percent-encoded, without the query: "/packs/NAME" a pack, "/" the page's
-  /// index.html, anything else a file below the page's folder. Nothing when there is no such regular file.
-  std::optional<std::filesystem::path> file(std::string_view url_path) const;
+  struct File {
+    OpenFile open;
+    std::string_view type;  ///< the Content-Type, by the ending of the file's name
+  };
+  /// Opens the file behind the path of a URL, percent-encoded, without the query: "/packs/NAME" a pack, "/" the page's
+  /// index.html, anything else a file below the page's folder. Fails with ErrorKind::limit when the system has no
+  /// descriptors left, with another kind when there is no such file.
+  Result<File> file(std::string_view url_path);
 
  private:
+  Result<OpenFile> pack(const std::string& name);
+
   std::vector<std::filesystem::path> files_;
-  std::vector<std::filesystem::path> folders_;
+  std::vector<PackFolder> folders_;
   std::filesystem::path page_;
 };
-
-/// The Content-Type of a file, by its name's ending.
-std::string_view content_type(const std::filesystem::path& file);
 
 }  // namespace lightwell

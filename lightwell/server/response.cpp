@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/server/response.h"
 
-#include <fcntl.h>
+#include <algorithm>
 
 namespace lightwell {
 namespace {
@@ -10,13 +10,35 @@ bool names_tag(std::string_view list, std::string_view etag) {
   return list == "*" || list.find(etag) != std::string_view::npos;
 }
 
-/// The file, or the part of it that was asked for (RFC 9110, 14).
-Answer answer_file(const std::filesystem::path& path, const RequestHead& request) {
-  OpenFile file(path);
-  if (!file.is_open()) return answer_text(404, "not found\n");
+Answer answer_failure(const Error& error) {
+  if (error.kind != ErrorKind::limit) return answer_text(404, "not found\n");
+  Answer answer = answer_text(503, "too many files are open\n");
+  answer.add("Retry-After", "1");
+  return answer;
+}
+
+/// The path of a request's target. One in absolute form ("http://host/path") has a scheme and a host before it, which
+/// this server takes for its own.
+std::string_view path_of(std::string_view target) {
+  constexpr std::string_view mark = "://";
+  const size_t colon = std::min(target.find(mark), target.size());
+  const bool has_scheme = colon > 0 && std::ranges::all_of(target.substr(0, colon), [](char c) {
+                            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+                          });
+  if (has_scheme && colon < target.size()) {
+    target.remove_prefix(colon + mark.size());
+    target.remove_prefix(std::min(target.find_first_of("/?"), target.size()));
+  }
+  const std::string_view path = target.substr(0, target.find('?'));
+  return path.empty() ? "/" : path;
+}
+
+/// The file, or the part of it that was asked for. A range has a meaning for GET alone (RFC 9110, 14.2).
+Answer answer_file(Catalog::File found, const RequestHead& request) {
+  OpenFile& file = found.open;
   const std::string etag = file.etag();
   Answer answer;
-  answer.add("Content-Type", std::string(content_type(path)));
+  answer.add("Content-Type", std::string(found.type));
   answer.add("Accept-Ranges", "bytes");
   answer.add("ETag", etag);
   answer.add("Cache-Control", "no-cache");
@@ -25,8 +47,8 @@ Answer answer_file(const std::filesystem::path& path, const RequestHead& request
     answer.has_body = false;
     return answer;
   }
-  const bool same = request.if_range.empty() || request.if_range == etag;
-  const ByteRange range = parse_range(same ? request.range : "", file.length());
+  const bool meant = request.method == "GET" && (request.if_range.empty() || request.if_range == etag);
+  const ByteRange range = parse_range(meant ? request.range : "", file.length());
   const std::string total = std::to_string(file.length());
   if (range.kind == ByteRange::Kind::unsatisfiable) {
     Answer refusal = answer_text(416, "the range is beyond the end of the file\n");
@@ -54,42 +76,24 @@ Answer answer_preflight() {
   return answer;
 }
 
-Answer answer_method(const Catalog& catalog, const RequestHead& request) {
+Answer answer_method(Catalog& catalog, const RequestHead& request) {
   if (request.method == "OPTIONS") return answer_preflight();
   if (request.method != "GET" && request.method != "HEAD") {
     Answer refusal = answer_text(405, "only GET and HEAD\n");
     refusal.add("Allow", "GET, HEAD, OPTIONS");
     return refusal;
   }
-  const std::string_view target = request.target;
-  const std::string_view path = target.substr(0, target.find('?'));
+  const std::string_view path = path_of(request.target);
   if (path == "/healthz") return answer_text(200, "ok\n");
-  if (path == "/packs.json") return answer_text(200, catalog.packs_json(), "application/json");
-  const auto file = catalog.file(path);
-  return file ? answer_file(*file, request) : answer_text(404, "not found\n");
+  if (path == "/packs.json") {
+    auto list = catalog.packs_json();
+    return list ? answer_text(200, std::move(*list), "application/json") : answer_failure(list.error());
+  }
+  auto file = catalog.file(path);
+  return file ? answer_file(std::move(*file), request) : answer_failure(file.error());
 }
 
 }  // namespace
-
-OpenFile::OpenFile(const std::filesystem::path& path) {
-  const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (opened < 0) return;
-  if (::fstat(opened, &stat_) == 0 && S_ISREG(stat_.st_mode))
-    descriptor_ = opened;
-  else
-    ::close(opened);
-}
-
-std::string OpenFile::etag() const {
-  std::string tag = "\"";
-  for (const auto number :
-       {static_cast<uint64_t>(stat_.st_dev), static_cast<uint64_t>(stat_.st_ino), length(),
-        static_cast<uint64_t>(stat_.st_mtim.tv_sec), static_cast<uint64_t>(stat_.st_mtim.tv_nsec)}) {
-    if (tag.size() > 1) tag += '-';
-    tag += std::to_string(number);
-  }
-  return tag + '"';
-}
 
 Answer answer_text(int status, std::string text, std::string type) {
   Answer answer;
@@ -101,7 +105,7 @@ Answer answer_text(int status, std::string text, std::string type) {
   return answer;
 }
 
-Answer answer_request(const Catalog& catalog, const RequestHead& request) {
+Answer answer_request(Catalog& catalog, const RequestHead& request) {
   Answer answer = answer_method(catalog, request);
   if (request.method == "HEAD") answer.has_body = false;
   answer.add("Access-Control-Allow-Origin", "*");

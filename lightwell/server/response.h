@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -14,37 +11,10 @@
 
 namespace lightwell {
 
-/// A file that is open for reading, closed with the object.
-class OpenFile {
- public:
-  OpenFile() = default;
-  /// Opens a regular file; is_open() tells whether that worked.
-  explicit OpenFile(const std::filesystem::path& path);
-  OpenFile(OpenFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)), stat_(other.stat_) {}
-  OpenFile& operator=(OpenFile&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    stat_ = other.stat_;
-    return *this;
-  }
-  ~OpenFile() {
-    if (is_open()) ::close(descriptor_);
-  }
-
-  bool is_open() const { return descriptor_ >= 0; }
-  int descriptor() const { return descriptor_; }
-  uint64_t length() const { return static_cast<uint64_t>(stat_.st_size); }
-  /// A strong entity tag, quoted: of device, file, length and time of the last change in nanoseconds.
-  std::string etag() const;
-
- private:
-  int descriptor_ = -1;
-  struct stat stat_ {};
-};
-
-/// What of a request decides about its answer.
+/// The parts of a request's header on which its answer depends.
 struct RequestHead {
   std::string method;
-  std::string target;
+  std::string target;  ///< a path, with or without a query, or a whole URL (RFC 9112, 3.2)
   std::string range;
   std::string if_range;
   std::string if_none_match;
@@ -63,10 +33,10 @@ struct Answer {
   void add(std::string name, std::string value) { fields.emplace_back(std::move(name), std::move(value)); }
 };
 
-/// Answers a request from a catalog.
-Answer answer_request(const Catalog& catalog, const RequestHead& request);
+/// Answers a request from a catalog. Status 503 says that the system has no descriptors left for what is there.
+Answer answer_request(Catalog& catalog, const RequestHead& request);
 
-/// A short plain text as an answer.
+/// An answer that is a short text.
 Answer answer_text(int status, std::string text, std::string type = "text/plain; charset=utf-8");
 
 }  // namespace lightwell

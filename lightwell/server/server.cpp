@@ -21,9 +21,21 @@ constexpr size_t longest_turn = 1u << 20;  // bytes sent for one connection befo
 
 class Session;
 
-/// What a session needs of its server.
+/// "127.0.0.1:8080", "[::1]:8080" (RFC 3986, 3.2.2).
+std::string authority(const std::string& address, uint16_t port) {
+  const std::string host = address.find(':') == std::string::npos ? address : "[" + address + "]";
+  return host + ":" + std::to_string(port);
+}
+
+/// A request names its host once; of HTTP/1.0 it need not (RFC 9112, 3.2).
+bool names_one_host(const http::request<http::empty_body>& request) {
+  const size_t hosts = request.count(http::field::host);
+  return hosts == 1 || (hosts == 0 && request.version() < 11);
+}
+
+/// The part of a server that its sessions share.
 struct Shared {
-  const Catalog& catalog;
+  Catalog& catalog;
   const ServerOptions& options;
   std::set<Session*> sessions;
   bool stopping = false;
@@ -89,6 +101,7 @@ class Session : public std::enable_shared_from_this<Session> {
     if (error) return close();
     const auto& request = parser_->get();
     const auto field = [&](http::field name) { return std::string(request[name].data(), request[name].size()); };
+    if (!names_one_host(request)) return send(answer_text(400, "a request has one Host\n"), false);
     const RequestHead head{std::string(request.method_string()), std::string(request.target()),
                            field(http::field::range), field(http::field::if_range), field(http::field::if_none_match)};
     // A request with a body is answered and the connection closed, so the body need not be read.
@@ -207,7 +220,7 @@ class Server::Loop {
     if (!error) port_ = acceptor_.local_endpoint(error).port();
     if (error) {
       const std::string hint = error == asio::error::address_in_use ? "; --port 0 takes a free one" : "";
-      return fail(ErrorKind::io, options_.bind + ":" + std::to_string(options_.port), error.message() + hint);
+      return fail(ErrorKind::io, authority(options_.bind, options_.port), error.message() + hint);
     }
     stop_event_.assign(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), error);
     if (error) return fail(ErrorKind::io, "server", error.message());
@@ -216,7 +229,8 @@ class Server::Loop {
   }
 
   uint16_t port() const { return port_; }
-  const Catalog& catalog() const { return catalog_; }
+  std::string url() const { return "http://" + authority(options_.bind, port_) + "/"; }
+  Catalog& catalog() { return catalog_; }
 
   void run() {
     stop_event_.async_wait(asio::posix::stream_descriptor::wait_read, [this](error_code) { begin_stop(); });
@@ -290,7 +304,8 @@ Server& Server::operator=(Server&&) noexcept = default;
 Server::~Server() = default;
 
 uint16_t Server::port() const { return loop_->port(); }
-const Catalog& Server::catalog() const { return loop_->catalog(); }
+std::string Server::url() const { return loop_->url(); }
+Catalog& Server::catalog() { return loop_->catalog(); }
 void Server::run() { loop_->run(); }
 void Server::stop() { loop_->stop(); }
 

@@ -13,8 +13,9 @@
 
 namespace lightwell {
 
+/// What a server serves, where, and what it puts up with.
 struct ServerOptions {
-  std::string bind = "127.0.0.1";            ///< an IP address, or localhost, which is this one
+  std::string bind = "127.0.0.1";            ///< an IPv4 or IPv6 address, or localhost, which is this one
   uint16_t port = 8080;                      ///< 0: any free one
   std::vector<std::filesystem::path> packs;  ///< files, or folders of *.glb
   std::filesystem::path page;                ///< the folder with the page's index.html; empty: no page
@@ -24,9 +25,9 @@ struct ServerOptions {
   std::chrono::milliseconds grace{5000};     ///< for responses under way when the server is stopped
 };
 
-/// An HTTP/1.1 server for packs and the page: GET and HEAD with byte ranges, strong ETags and CORS. One thread,
+/// An HTTP/1.1 server for packs and the page: GET and HEAD, byte ranges, strong ETags and CORS. One thread,
 /// asynchronous; bodies of files go out by sendfile, so that a connection needs a few kilobytes whatever it downloads.
-/// No TLS, no compression, no HTTP/2: those are a proxy's.
+/// TLS, compression and HTTP/2 are left to a proxy.
 ///
 ///   /             the page, /... its files
 ///   /packs/NAME   a pack
@@ -42,8 +43,10 @@ class Server {
 
   /// The port that is listened on.
   uint16_t port() const;
-  /// What it serves.
-  const Catalog& catalog() const;
+  /// The address of the page: "http://127.0.0.1:8080/", an IPv6 address in brackets.
+  std::string url() const;
+  /// What it serves. Not to be used while run() runs.
+  Catalog& catalog();
   /// Serves until stop() is called.
   void run();
   /// Ends run(): no new connection, idle ones are closed, responses under way are finished. May be called from any

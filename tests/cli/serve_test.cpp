@@ -65,6 +65,14 @@ TEST_F(Serve, SaysWhatToDoAboutAPortInUse) {
   EXPECT_EQ(refused.err, "lightwell: 127.0.0.1:" + port + ": Address already in use; --port 0 takes a free one\n");
 }
 
+TEST_F(Serve, PutsAnIPv6AddressIntoBrackets) {
+  const Outcome outcome = started(small_pack() + " --bind ::1");
+  if (outcome.status != 0) GTEST_SKIP() << "left out: this machine has no IPv6: " << outcome.err;
+  EXPECT_TRUE(
+      std::regex_match(json::parse(outcome.out)["url"].get<std::string>(), std::regex(R"(http://\[::1\]:\d+/)")))
+      << outcome.out;
+}
+
 TEST_F(Serve, ListensOnLocalhostByName) {
   const Outcome outcome = started(small_pack() + " --bind localhost");
   EXPECT_EQ(json::parse(outcome.out)["url"].get<std::string>().rfind("http://localhost:", 0), 0u) << outcome.err;

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "lightwell/server/server.h"
+#include "tests/pack/pack_samples.h"
 
 namespace lightwell {
 
@@ -61,6 +62,13 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// A pack of no streams with a little more than `length` bytes, no two parts of which are alike.
+inline std::string pack_of(size_t length) {
+  Random random(1, length);
+  const std::vector<uint8_t> pack = make_pack(random_bytes(random, length), {});
+  return {pack.begin(), pack.end()};
+}
 
 /// An answer as it came over the wire.
 struct RawResponse {

@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/server/server.h"
 
-#include "tests/pack/pack_samples.h"
+#include <fcntl.h>
+#include <sys/resource.h>
+
 #include "tests/server/running_server.h"
 
 namespace lightwell {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// A pack of no streams with a little more than `length` bytes, no two parts of which are alike.
-std::string pack_of(size_t length) {
-  Random random(1, length);
-  const std::vector<uint8_t> pack = make_pack(random_bytes(random, length), {});
-  return {pack.begin(), pack.end()};
-}
 
 class ServerTest : public testing::Test {
  protected:
@@ -97,6 +92,12 @@ TEST_F(ServerTest, HeadHasNoBody) {
   EXPECT_EQ(head.status, 200);
   EXPECT_EQ(head.fields.at("content-length"), total_);
   EXPECT_EQ(connection.get("/healthz").body, "ok\n") << "the next answer follows directly";
+  for (const char* range : {"Range: bytes=0-9\r\n", "Range: bytes=99999999-\r\n"}) {
+    const RawResponse whole = connection.get(url_, range, "HEAD");
+    EXPECT_EQ(whole.status, 200) << "a range has a meaning for GET alone";
+    EXPECT_EQ(whole.fields.at("content-length"), total_);
+    EXPECT_EQ(whole.fields.count("content-range"), 0u);
+  }
 }
 
 TEST_F(ServerTest, TagsTellAReplacedFile) {
@@ -106,12 +107,13 @@ TEST_F(ServerTest, TagsTellAReplacedFile) {
   EXPECT_EQ(before.front(), '"') << "a strong tag";
   EXPECT_EQ(connection.get(url_, "Range: bytes=0-9\r\nIf-Range: " + before + "\r\n").status, 206);
   EXPECT_EQ(connection.get(url_, "If-None-Match: " + before + "\r\n").status, 304);
-  folder_.write("packs/new", std::string(300000, 'x'));
+  const std::string other = pack_of(300001);
+  folder_.write("packs/new", other);
   std::filesystem::rename(folder_.path() / "packs/new", folder_.path() / "packs/room one.lw.glb");
   const RawResponse after = connection.get(url_, "Range: bytes=0-9\r\nIf-Range: " + before + "\r\n");
   EXPECT_EQ(after.status, 200);
   EXPECT_NE(after.fields.at("etag"), before);
-  EXPECT_EQ(after.body, std::string(300000, 'x'));
+  EXPECT_EQ(after.body, other);
 }
 
 TEST_F(ServerTest, GivesNothingFromOutside) {
@@ -150,6 +152,71 @@ TEST_F(ServerTest, RefusesLongAndBrokenHeaders) {
   EXPECT_TRUE(broken.ended());
 }
 
+TEST_F(ServerTest, UnderstandsATargetInAbsoluteForm) {
+  RunningServer server(options_);
+  RawConnection connection(server.port());
+  EXPECT_EQ(connection.get("http://example.org/packs/single.glb").body, single_);
+  EXPECT_EQ(connection.get("HTTP://example.org:80" + url_ + "?x=://").body, pack_);
+  EXPECT_EQ(connection.get("http://example.org").body, "<!doctype html>");
+  EXPECT_EQ(connection.get("http://example.org?x=/secret").body, "<!doctype html>");
+  EXPECT_EQ(connection.get("http://example.org/../secret.glb").status, 404);
+  EXPECT_EQ(connection.get("/http://example.org/main.js").status, 404);
+}
+
+TEST_F(ServerTest, WantsOneHost) {
+  RunningServer server(options_);
+  for (const char* hosts : {"", "Host: a\r\nHost: a\r\n", "Host: a\r\nX: y\r\nhost: b\r\n"}) {
+    RawConnection connection(server.port());
+    connection.send("GET /healthz HTTP/1.1\r\n" + std::string(hosts) + "\r\n");
+    EXPECT_EQ(connection.receive().status, 400) << hosts;
+    EXPECT_TRUE(connection.ended()) << "who writes two hosts may mean two requests";
+  }
+  RawConnection old(server.port());
+  old.send("GET /healthz HTTP/1.0\r\n\r\n");
+  EXPECT_EQ(old.receive().status, 200);
+}
+
+/// Takes all descriptors that the process may have, but for those in use.
+class NoDescriptorsLeft {
+ public:
+  NoDescriptorsLeft() {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit few{256, before_.rlim_max};
+    EXPECT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+    for (int taken; (taken = ::open("/dev/null", O_RDONLY | O_CLOEXEC)) >= 0;) taken_.push_back(taken);
+    EXPECT_EQ(errno, EMFILE);
+  }
+  NoDescriptorsLeft(const NoDescriptorsLeft&) = delete;
+  NoDescriptorsLeft& operator=(const NoDescriptorsLeft&) = delete;
+  ~NoDescriptorsLeft() {
+    for (const int taken : taken_) ::close(taken);
+    ::setrlimit(RLIMIT_NOFILE, &before_);
+  }
+
+ private:
+  rlimit before_{};
+  std::vector<int> taken_;
+};
+
+TEST_F(ServerTest, WithoutDescriptorsIsBusyAndLosesNothing) {
+  RunningServer server(options_);
+  RawConnection connection(server.port());
+  EXPECT_EQ(connection.get("/healthz").status, 200);
+  folder_.write("packs/new.glb", single_);
+  const std::vector<std::string> there{url_, "/packs/single.glb", "/packs/new.glb", "/packs.json", "/main.js"};
+  {
+    const NoDescriptorsLeft none;
+    for (const std::string& target : there) {
+      const RawResponse busy = connection.get(target);
+      EXPECT_EQ(busy.status, 503) << target;
+      EXPECT_EQ(busy.fields.count("retry-after"), 1u) << target;
+    }
+    EXPECT_EQ(connection.get("/packs/absent.glb").status, 404);
+    EXPECT_EQ(connection.get("/healthz").status, 200);
+  }
+  for (const std::string& target : there) EXPECT_EQ(connection.get(target).status, 200) << target;
+}
+
 TEST_F(ServerTest, KeepsConnectionsAlive) {
   RunningServer server(options_);
   RawConnection connection(server.port());
@@ -164,7 +231,7 @@ TEST_F(ServerTest, KeepsConnectionsAlive) {
 TEST_F(ServerTest, DropsSilentAndSlowClients) {
   options_.idle = 100ms;
   options_.slow = 100ms;
-  folder_.write("packs/large.glb", std::string(20 << 20, 'l'));  // more than the system's socket buffers hold
+  folder_.write("packs/large.glb", pack_of(20 << 20));  // more than the system's socket buffers hold
   RunningServer server(options_);
   RawConnection silent(server.port());
   RawConnection dripping(server.port());
@@ -194,7 +261,7 @@ TEST_F(ServerTest, ManyClientsAtOnce) {
 }
 
 TEST_F(ServerTest, StopsAfterTheAnswersUnderWay) {
-  const std::string large(20 << 20, 'l');
+  const std::string large = pack_of(20 << 20);
   folder_.write("packs/large.glb", large);
   auto server = std::make_unique<RunningServer>(options_);
   RawConnection idle(server->port());

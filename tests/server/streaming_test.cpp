@@ -133,6 +133,22 @@ TEST_F(Streaming, IsExact) {
   EXPECT_TRUE(scene_ == sample().scene);
 }
 
+TEST_F(Streaming, OverIPv6) {
+  ServerOptions options;
+  options.bind = "::1";
+  options.port = 0;
+  options.packs = {folder_.path() / "packs"};
+  if (!Server::listen(options)) GTEST_SKIP() << "left out: this machine has no IPv6";
+  RunningServer server(options);
+  EXPECT_EQ(server.server().url(), "http://[::1]:" + std::to_string(server.port()) + "/");
+  const auto transport = http_transport(server.server().url() + "packs/sample.glb");
+  ASSERT_TRUE(transport) << transport.error().message();
+  Client client({});
+  const auto outcome = fetch(client, **transport, [](const Update&) {});
+  ASSERT_TRUE(outcome) << outcome.error().message();
+  EXPECT_EQ(outcome->bytes, sample().file.size());
+}
+
 TEST_F(Streaming, SurvivesTheServersDeath) {
   auto server = start_server();
   Clock::time_point death;
