@@ -33,12 +33,16 @@ void report(Client& client, const TransportEvent& event, double now) {
   }
 }
 
-/// Follows the updates of a run and remembers when there was what.
+ErrorKind kind_of(FailureUpdate::Reason reason) {
+  return reason == FailureUpdate::Reason::unreadable ? ErrorKind::bad_input : ErrorKind::io;
+}
+
+/// Hands the updates of a client on and keeps the time of each advance.
 class Watcher {
  public:
   explicit Watcher(const std::function<void(const Update&)>& apply) : apply_(apply) {}
 
-  /// Decodes and hands over all that is there.
+  /// Decodes and hands on all that is there.
   void drain(Client& client) {
     bool more = true;
     while (more) {
@@ -47,7 +51,7 @@ class Watcher {
         more = true;
         changed_ = true;
         if (std::holds_alternative<OpeningUpdate>(*update)) opened_ = true;
-        if (const auto* failed = std::get_if<FailureUpdate>(&*update)) failure_ = failed->message;
+        if (const auto* failed = std::get_if<FailureUpdate>(&*update)) failure_ = *failed;
         apply_(*update);
       }
     }
@@ -64,18 +68,18 @@ class Watcher {
     changed_ = false;
   }
 
-  const std::optional<std::string>& failure() const { return failure_; }
+  const std::optional<FailureUpdate>& failure() const { return failure_; }
 
  private:
   const std::function<void(const Update&)>& apply_;
-  std::optional<std::string> failure_;
+  std::optional<FailureUpdate> failure_;
   bool opened_ = false;
   bool changed_ = false;
 };
 
 constexpr const char* silence = "the server does not answer";
 
-/// Why an event makes a client try again; empty when the server is not to blame.
+/// The reason of an event that makes a client try again; empty when the server is not to blame.
 std::string reason_of(const TransportEvent& event) {
   if (event.kind == TransportEvent::Kind::failed) return event.reason;
   if (event.kind == TransportEvent::Kind::head && event.status >= first_refusal)
@@ -83,7 +87,7 @@ std::string reason_of(const TransportEvent& event) {
   return {};
 }
 
-/// Notices when the server has gone and when it is back.
+/// A witness of when the server goes silent and when it is back.
 class Listener {
  public:
   Listener(const FetchGuard& guard, double now) : guard_(guard), heard_(now) {}
@@ -92,7 +96,7 @@ class Listener {
     if (event.kind == TransportEvent::Kind::bytes) heard_ = now;
   }
 
-  /// Sees whether the client has failed since the last look, for the given reason.
+  /// Tells of an outage, for the given reason, when the client has failed since the last look.
   void look(const Client& client, const std::string& reason) {
     const uint32_t failures = client.progress().failures;
     if (failures > failures_ && !reason.empty()) {
@@ -103,7 +107,7 @@ class Listener {
     failures_ = failures;
   }
 
-  /// When patience ends.
+  /// The time at which patience ends.
   double end() const { return heard_ + guard_.patience; }
   std::string last_words() const {
     char seconds[32];
@@ -142,7 +146,7 @@ Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::func
     watcher.drain(client);
     watcher.remember(client, transport.now(), outcome);
   }
-  if (watcher.failure()) return fail("", *watcher.failure());
+  if (watcher.failure()) return fail(kind_of(watcher.failure()->reason), "", watcher.failure()->message);
   perform(client, transport);
   outcome.bytes = client.progress().bytes;
   outcome.requests = client.progress().requests;

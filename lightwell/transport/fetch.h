@@ -12,7 +12,7 @@
 
 namespace lightwell {
 
-/// How a pack came in.
+/// The course of a fetch.
 struct FetchOutcome {
   struct Moment {
     double seconds = 0;  ///< of the transport's clock
@@ -27,17 +27,18 @@ struct FetchOutcome {
   std::vector<Moment> timeline;  ///< whenever something had been decoded, at most about 100 a second
 };
 
-/// Who watches over a fetch. A client tries again for ever; here is what may end it before.
+/// What may end a fetch early: a client by itself tries again for ever.
 struct FetchGuard {
-  /// Asked twice a second or more; true ends the run with an error.
+  /// Asked twice a second or more; true ends the fetch with ErrorKind::cancelled.
   std::function<bool()> cancelled = {};
-  /// Told why the server gives nothing, once until it gives again.
+  /// Called with the reason when the server gives nothing, once until it gives again.
   std::function<void(const std::string&)> outage = {};
-  /// So many seconds without a byte end the run with an error.
+  /// After so many seconds without a byte the fetch ends with ErrorKind::io.
   double patience = std::numeric_limits<double>::infinity();
 };
 
-/// Runs a client to its end over a transport; `apply` gets every update. The client's failure is an error.
+/// Runs a client to its end over a transport, in the calling thread; `apply` gets every update. Fails when the client
+/// does.
 Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::function<void(const Update&)>& apply,
                            const FetchGuard& guard = {});
 

@@ -13,29 +13,42 @@
 namespace lightwell {
 namespace {
 
+/// The parts of an http URL (RFC 3986, 3; RFC 9110, 4.2.1).
 struct Url {
-  std::string host;
+  std::string host;  ///< an IPv6 address without its brackets
   std::string port = "80";
+  std::string authority;  ///< host and port as they stand in the URL: the field Host
   std::string target = "/";
 };
+
+bool is_port(std::string_view text) {
+  return !text.empty() && text.size() <= 5 && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; }) &&
+         std::stoul(std::string(text)) <= std::numeric_limits<uint16_t>::max();
+}
 
 std::optional<Url> parse_url(std::string_view text) {
   constexpr std::string_view scheme = "http://";
   if (!text.starts_with(scheme)) return std::nullopt;
   text.remove_prefix(scheme.size());
   Url url;
-  const size_t slash = std::min(text.find('/'), text.size());
-  const std::string_view authority = text.substr(0, slash);
-  if (slash < text.size()) url.target = text.substr(slash, text.find('#', slash) - slash);
-  const size_t colon = authority.find(':');
-  url.host = authority.substr(0, colon);
-  if (colon != std::string_view::npos) url.port = authority.substr(colon + 1);
+  text = text.substr(0, text.find('#'));
+  const size_t end = std::min(text.find_first_of("/?"), text.size());
+  url.authority = text.substr(0, end);
+  const std::string_view authority = url.authority, rest = text.substr(end);
+  url.target = (rest.starts_with('/') ? "" : "/") + std::string(rest);
+  const bool bracketed = authority.starts_with('[');
+  const size_t bracket = bracketed ? authority.find(']') : 0;
+  if (bracket == std::string_view::npos) return std::nullopt;
+  const size_t colon = std::min(authority.find(':', bracket), authority.size());
+  if (bracketed && colon != bracket + 1) return std::nullopt;
+  url.host = bracketed ? authority.substr(1, bracket - 1) : authority.substr(0, colon);
+  if (colon < authority.size()) url.port = authority.substr(colon + 1);
   const bool printable = std::ranges::all_of(url.target, [](char c) { return c > ' ' && c < 0x7f; });
-  if (url.host.empty() || url.port.empty() || !printable) return std::nullopt;
+  if (url.host.empty() || !is_port(url.port) || !printable) return std::nullopt;
   return url;
 }
 
-/// The server, and the events that its answers bring.
+/// A server, and the events of the requests to it.
 struct Exchange {
   asio::io_context io;
   /// Lets io wait for its time also when nothing is under way.
@@ -59,7 +72,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     busy_ = true;
     reused_ = socket_.is_open();
     question_ = {http::verb::get, exchange_.url.target, 11};
-    question_.set(http::field::host, exchange_.url.host + ":" + exchange_.url.port);
+    question_.set(http::field::host, exchange_.url.authority);
     question_.set(http::field::range, "bytes=" + std::to_string(first) + "-" + std::to_string(last));
     if (reused_)
       write();

@@ -13,7 +13,7 @@
 
 namespace lightwell {
 
-/// Something that happened to a request.
+/// An event in the course of a request.
 struct TransportEvent {
   enum class Kind : uint8_t {
     head,    ///< the response begins: status and header fields
@@ -30,7 +30,7 @@ struct TransportEvent {
   std::string reason = {};  ///< of a failure, in the system's words: "Connection refused"
 };
 
-/// Carries a client's requests for the bytes of one file.
+/// A carrier of a client's requests for the bytes of one file. For one thread at a time.
 class Transport {
  public:
   virtual ~Transport() = default;
@@ -39,19 +39,21 @@ class Transport {
   virtual double now() = 0;
   /// Sends a request. Its events come out of wait().
   virtual void ask(uint32_t request, uint64_t first, uint64_t last) = 0;
-  /// Drops a request: no event of it comes any more.
+  /// Drops a request: no further event of it comes.
   virtual void cancel(uint32_t request) = 0;
   /// The next event; waits for one until the time `until` at the longest, then gives nothing.
   virtual std::optional<TransportEvent> wait(double until) = 0;
 };
 
-/// A transport for a file in memory: every answer is there at once. Its clock stands still but for waiting.
+/// A transport for a file in memory: every answer is there at once. Its clock advances by waiting only.
 std::unique_ptr<Transport> memory_transport(std::vector<uint8_t> file);
 
-/// A transport for "http://host[:port]/path" (HTTP/1.1, connections kept alive, no redirections). Errors: another kind
-/// of URL, an unknown host. That nobody answers is a failed request, which a client tries again.
+/// A transport for "http://host[:port]/path" (HTTP/1.1, connections kept alive, no redirections); an IPv6 address
+/// stands in brackets. Errors: another kind of URL (ErrorKind::bad_input), an unknown host (io). That nobody answers is
+/// a failed request, which a client tries again.
 Result<std::unique_ptr<Transport>> http_transport(const std::string& url);
 
+/// How slow a line is.
 struct LineShape {
   double bits_per_second = 0;  ///< shared by all requests; 0: as fast as it goes
   double latency = 0;          ///< seconds from a question to its answer

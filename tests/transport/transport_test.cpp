@@ -62,10 +62,14 @@ TEST(Fetch, FailuresAreErrors) {
   damaged[30] ^= 1;
   const auto transport = memory_transport(damaged);
   Client client({});
-  EXPECT_FALSE(fetch(client, *transport, [](const Update&) {}));
+  const auto unreadable = fetch(client, *transport, [](const Update&) {});
+  ASSERT_FALSE(unreadable);
+  EXPECT_EQ(unreadable.error().kind, ErrorKind::bad_input);
   Client other({});
   const auto again = memory_transport(sample());
-  EXPECT_FALSE(fetch(other, *again, [](const Update&) {}, {.cancelled = [] { return true; }}));
+  const auto cancelled = fetch(other, *again, [](const Update&) {}, {.cancelled = [] { return true; }});
+  ASSERT_FALSE(cancelled);
+  EXPECT_EQ(cancelled.error().kind, ErrorKind::cancelled);
 }
 
 /// A line on which requests get no answer, by and by: the first ones fail, are told to come back, or hear nothing.
@@ -121,6 +125,7 @@ TEST(Fetch, PatienceEndsWithWhatWasWrong) {
     const auto outcome = fetch(client, line, [](const Update&) {}, {.patience = 40});
     ASSERT_FALSE(outcome);
     EXPECT_EQ(outcome.error().reason, reason);
+    EXPECT_EQ(outcome.error().kind, ErrorKind::io);
     EXPECT_NEAR(line.now(), 40, 1e-6) << "neither sooner nor later";
   }
 }
@@ -223,9 +228,15 @@ TEST(HttpTransport, ASignalDoesNotDisturbAWait) {
 }
 
 TEST(HttpTransport, WrongUrlsAreErrors) {
-  for (const char* url :
-       {"", "pack.glb", "https://localhost/pack.glb", "http://", "http:///x", "http://localhost:/x", "http://a b/"})
+  for (const char* url : {"", "pack.glb", "https://localhost/pack.glb", "http://", "http:///x", "http://localhost:/x",
+                          "http://a b/", "http://localhost:65536/x", "http://localhost:http/x", "http://::1/x",
+                          "http://[::1/x", "http://[::1]80/x", "http://[]/x"})
     EXPECT_FALSE(http_transport(url)) << url;
+}
+
+TEST(HttpTransport, UnderstandsIPv6Addresses) {
+  for (const char* url : {"http://[::1]:1/pack.glb", "http://[::1]", "http://[2001:db8::1]:8080?x=1"})
+    EXPECT_TRUE(http_transport(url)) << url;
 }
 
 }  // namespace
