@@ -45,8 +45,10 @@ struct CollapseOrder {
 /// or tear attributes is charged as an error of the size of what may vanish. Only the last face never goes. Faces that
 /// have two corners at one point or repeat another are loose: they take no part. Fails only when cancelled.
 ///
-/// Quadric error metric after Garland and Heckbert (1997), half-edge form; rounds of independent removals as in the
-/// multiresolution hierarchies of Dobkin and Kirkpatrick (1985).
+/// The cost is the quadric error metric of M. Garland and P. Heckbert ("Surface simplification using quadric error
+/// metrics", SIGGRAPH 1997). Differs from the paper: a point goes onto a neighbour and nothing moves (half-edge
+/// collapse), and instead of the cheapest collapse each time there are rounds of independent ones, as in the hierarchies
+/// of D. Dobkin and D. Kirkpatrick (1985).
 Result<CollapseOrder> collapse_order(const QuantizedMesh& mesh, const Points& points, uint32_t vertices,
                                      Progress& progress);
 
