@@ -35,7 +35,9 @@ struct SimplifiedMesh {
 
 /// A mesh whose vertices are in order of refinement: those of the coarsest level, then pass by pass the ones that
 /// splits add. The level of n vertices (n not inside a point) is the final mesh with every corner replaced by its
-/// nearest ancestor below n, without the faces that then have two corners at one point.
+/// nearest ancestor below n, without the faces that then have two corners at one point. The progressive mesh of
+/// H. Hoppe ("Progressive meshes", SIGGRAPH 1996, section 3); differs from the paper: a split moves no vertex, and
+/// splits come in passes that do not depend on each other.
 struct ProgressiveMesh {
   /// Splits that do not depend on each other: the points up to point_end.
   struct Pass {
