@@ -25,19 +25,27 @@ std::string Error::message() const {
     if (!text.empty()) text += ": ";
     text += *part;
   }
-  if (offset) text += " (at byte " + std::to_string(*offset) + ")";
+  if (offset) text += " (at byte " + std::to_string(static_cast<size_t>(*offset)) + ")";
   return text;
 }
 
 tl::unexpected<Error> fail(ErrorKind kind, std::string_view element, std::string_view reason) {
   return fail(Error("", std::string(element), std::string(reason), kind));
 }
-
+tl::unexpected<Error> fail(ErrorKind kind, const char* element, const char* reason) {
+  return fail(Error("", element, reason, kind));
+}
 tl::unexpected<Error> fail(std::string_view element, std::string_view reason) {
   return fail(ErrorKind::bad_input, element, reason);
 }
-
-tl::unexpected<Error> fail(Error error) { return tl::unexpected<Error>(std::move(error)); }
+tl::unexpected<Error> fail(const char* element, const char* reason) {
+  return fail(ErrorKind::bad_input, element, reason);
+}
+tl::unexpected<Error> fail_at(uint64_t offset, const char* element, const char* reason) {
+  return fail(Error("", element, reason, ErrorKind::bad_input, offset));
+}
+tl::unexpected<Error> fail(Error&& error) { return tl::unexpected<Error>(std::move(error)); }
+tl::unexpected<Error> fail(const Error& error) { return tl::unexpected<Error>(error); }
 
 Error in_file(Error error, const std::string& file) {
   if (error.file.empty()) error.file = file;

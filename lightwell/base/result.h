@@ -45,11 +45,17 @@ struct Error {
 template <typename T>
 using Result = tl::expected<T, Error>;
 
-/// The failure of an element for the given reason; the file is added by whoever knows it (see in_file).
+/// The failure of an element for the given reason; the file is added by whoever knows it (see in_file). Literals have
+/// an overload of their own, since they are shorter code.
 tl::unexpected<Error> fail(ErrorKind kind, std::string_view element, std::string_view reason);
+tl::unexpected<Error> fail(ErrorKind kind, const char* element, const char* reason);
 /// The same for bad input.
 tl::unexpected<Error> fail(std::string_view element, std::string_view reason);
-tl::unexpected<Error> fail(Error error);
+tl::unexpected<Error> fail(const char* element, const char* reason);
+/// The same at a byte of the file.
+tl::unexpected<Error> fail_at(uint64_t offset, const char* element, const char* reason);
+tl::unexpected<Error> fail(Error&& error);
+tl::unexpected<Error> fail(const Error& error);
 
 /// The same error, said of a file; an error that names its file already is left as it is.
 Error in_file(Error error, const std::string& file);

@@ -11,7 +11,7 @@
 
 namespace lightwell {
 
-/// What the commands that trace light through a scene are told of it.
+/// The options of the commands that trace light through a scene.
 struct SceneOptions {
   std::string path;         ///< a scene file, a pack, or the name of a built-in scene
   std::string environment;  ///< "R,G,B", or the name of a Radiance .hdr file; empty: the scene's own

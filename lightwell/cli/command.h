@@ -8,8 +8,8 @@
 
 namespace lightwell {
 
-/// Adds a command to the program: its name, help, options, and the function that does it. The function returns the exit
-/// status: 0, 1 for bad input, 2 for bad usage, 128 and the signal's number when the user ended it.
+/// A function that adds a command to the program: its name, help and options, and in `chosen` what runs it. That
+/// returns the exit status: 0, 1 for bad input, 2 for bad usage, 128 plus the signal's number when the user ended it.
 using AddCommand = CLI::App* (*)(CLI::App& program, Console& console, std::function<int()>& chosen);
 
 CLI::App* add_scenes(CLI::App&, Console&, std::function<int()>&);

@@ -12,13 +12,14 @@
 
 namespace lightwell {
 
-/// How a command talks: figures go to stdout, everything else to stderr. Options that every command has.
+/// The way a command talks: figures go to stdout, everything else to stderr. Its members are options of every command.
 struct Console {
   bool json = false;   ///< print one JSON object instead of lines
   bool quiet = false;  ///< no progress, no warnings
 
-  /// One line on stderr, "lightwell: FILE: ELEMENT: REASON"; returns the exit status for bad input. When Ctrl-C or
-  /// SIGTERM has ended the work the line says that instead, and the status is the shell's for that signal: 130 or 143.
+  /// Prints one line on stderr, "lightwell: FILE: ELEMENT: REASON", and returns the exit status for bad input. Of an
+  /// error of ErrorKind::cancelled the line says that nothing was written, and the status is the shell's for the signal
+  /// that ended the work, Ctrl-C or SIGTERM: 130 or 143.
   int fail(const Error& error) const;
   void warn(const std::string& warning) const;
   void warn(const Report& report) const;
@@ -54,7 +55,7 @@ class ConsoleProgress : public Progress {
   std::chrono::steady_clock::time_point drawn_;
 };
 
-/// Does `work`, a function of a Progress with a Result, and tells of its progress.
+/// Calls `work`, a function of a Progress that gives a Result, and shows its progress.
 template <typename Work>
 auto with_progress(const Console& console, const Work& work) {
   ConsoleProgress progress(console);
@@ -63,7 +64,7 @@ auto with_progress(const Console& console, const Work& work) {
   return outcome;
 }
 
-/// Seconds since it was made or last read by lap().
+/// A clock whose lap() gives the seconds since it was made or last read.
 class Stopwatch {
  public:
   double lap() {

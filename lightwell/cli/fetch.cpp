@@ -23,7 +23,8 @@ struct Options {
   double timeout = 30;  ///< seconds; 0 is never
 };
 
-// What a browser takes for a URL: "localhost:8080/packs/room.lw.glb", "example.com/room.lw.glb", "ftp://example".
+// Whether a browser would take the text for a URL: "localhost:8080/packs/room.lw.glb", "example.com/room.lw.glb",
+// "ftp://example".
 bool resembles_url(const std::string& text) {
   static const std::regex beginning(R"(^([^/]+:\d+(/|$)|\w[\w-]*(\.\w[\w-]*)+/|\w+://))");
   return std::regex_search(text, beginning);
@@ -37,7 +38,7 @@ Result<std::vector<uint8_t>> read_pack(const std::string& path) {
   return read_file(path);
 }
 
-// Small letters before "://": a scheme is the same in large ones (RFC 3986, 3.1).
+// The URL with its scheme in lower case, which is the same scheme (RFC 3986, 3.1).
 std::string with_plain_scheme(std::string url) {
   const size_t end = url.find("://");
   if (end != std::string::npos)
@@ -64,7 +65,7 @@ Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
   return shaped_transport(std::move(transport), shape);
 }
 
-// Ends with the user's patience, and tells of outages.
+// The guard of a fetch: Ctrl-C and --timeout end it, and outages are warned of.
 FetchGuard guard_of(const Options& options, const Progress& progress, const Console& console) {
   FetchGuard guard;
   guard.cancelled = [&] { return progress.cancelled(); };

@@ -12,8 +12,7 @@ using Figures = nlohmann::ordered_json;
 
 enum class Unit { none, seconds, bytes, share };
 
-// What a key of the JSON is called in a text, and what it is measured in; an unknown one has its name, and the unit of
-// the object that it belongs to.
+// The name of a JSON key in a text, and its unit; an unknown key keeps its name and has the unit of its object.
 struct Meaning {
   std::string name;
   Unit unit = Unit::none;

@@ -7,7 +7,7 @@
 namespace lightwell {
 
 /// The figures of a command for people: a line each, "peak memory: 17.2 MB", the members of an object side by side on
-/// its line. What is measured in seconds or bytes is told by its key.
+/// its line. The key of a figure tells whether it is in seconds or bytes.
 std::string figures_text(const nlohmann::ordered_json& figures);
 
 }  // namespace lightwell

@@ -29,7 +29,7 @@ std::string grid_text(const Figures& grid) {
   return text + "light: " + joined(grid["contains"], ", ");
 }
 
-// The unit of a member of a lamp, docs/format.md.
+// The unit of a member of a lamp (docs/format.md).
 std::string unit_of(const std::string& member, const std::string& kind) {
   static const std::map<std::string, std::string> units = {{"center", " m"},
                                                            {"u", " m"},
@@ -66,7 +66,7 @@ std::string stream_text(const Figures& stream) {
   return text;
 }
 
-// A line for each of a list, numbered.
+// One numbered line for each item of a list.
 std::string lines(const Figures& list, const std::string& name, std::string (*text)(const Figures&)) {
   std::string all;
   for (size_t i = 0; const Figures& item : list) all += name + " " + std::to_string(i++) + ": " + text(item) + "\n";

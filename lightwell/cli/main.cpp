@@ -3,7 +3,7 @@
 
 namespace {
 
-// What is wrong with a command line, in words.
+// The words for what is wrong with a command line.
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
   const std::vector<std::string> rest = program.remaining(true);
@@ -17,7 +17,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   return chosen.empty() ? rest.front() + ": no such command" : text + ": more than was expected";
 }
 
-// One line, and where to read on.
+// Refuses a command line: one line that also says where to read on.
 int refuse(const CLI::App& program, const std::string& reason) {
   const auto chosen = program.get_subcommands();
   const std::string command = chosen.empty() ? "" : chosen.front()->get_name();

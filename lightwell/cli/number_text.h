@@ -6,9 +6,9 @@
 
 namespace lightwell {
 
-// Numbers for people.
+// Texts of numbers, for people.
 
-/// Four digits, "0.04361", or a whole number of more, "-2,387,122"; what rounding left of a zero is a zero.
+/// Four digits, "0.04361", or a whole number of more, "-2,387,122"; a number that rounds to zero has no sign.
 std::string short_number(double number);
 
 /// "20,010"

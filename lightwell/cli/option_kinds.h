@@ -20,7 +20,7 @@ namespace lightwell {
 CLI::Option* add_text(CLI::App& command, const std::string& name, const std::string& kind,
                       const std::function<Result<void>(const std::string&)>& take, const std::string& help);
 
-/// Both ends belong to it.
+/// A range of numbers with both ends.
 struct NumberRange {
   double least = 0, most = 1;
 };
@@ -28,7 +28,7 @@ struct NumberRange {
 /// The seeds that options take: whole numbers that JSON keeps exactly.
 constexpr NumberRange seed_range = {0, 1e15};
 
-/// Reads a number; nan, infinity and what is outside the range are refused.
+/// Reads a number; nan, infinity and numbers outside the range are refused.
 Result<double> parse_number(const std::string& text, NumberRange range);
 /// Reads a whole number in the range.
 Result<int64_t> parse_whole(const std::string& text, NumberRange range);

@@ -30,7 +30,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-// In which column each wanted number stands.
+// The column of each wanted number.
 Result<std::array<size_t, 6>> find_columns(std::string_view header) {
   const std::vector<std::string_view> names = split(header, ',');
   std::array<size_t, 6> columns{};

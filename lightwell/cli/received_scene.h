@@ -9,10 +9,11 @@
 
 namespace lightwell {
 
-/// What a client has handed over so far, as a viewer would hold it: the opening's glTF, and each mesh's buffers.
+/// The scene that a client has handed over so far, as a viewer would hold it: the opening's glTF and each mesh's
+/// buffers.
 class ReceivedScene {
  public:
-  /// Takes an update over.
+  /// Takes an update in.
   void apply(const Update& update);
   /// The scene at the level it has reached, as a GLB. Fails before the opening has come.
   Result<std::vector<uint8_t>> glb() const;

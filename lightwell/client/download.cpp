@@ -171,7 +171,7 @@ Result<uint64_t> Download::accept(size_t index, uint32_t number, Bytes bytes) {
   }
   if (extent.page) {
     if (auto added = stream.table.add_page(payload); !added)
-      return lightwell::fail(in_element(added.error(), "stream " + std::to_string(index)));
+      return lightwell::fail(in_element(std::move(added.error()), "stream " + std::to_string(index)));
     stream.states.resize(stream.table.known());
   } else {
     stream.ready.emplace(extent.block, std::vector<uint8_t>(payload.begin(), payload.end()));

@@ -25,7 +25,7 @@ Result<std::unique_ptr<Refiner>> make(const StreamEntry& entry, uint32_t stream,
 Result<std::unique_ptr<Refiner>> make_refiner(const Directory& directory, uint32_t stream, Bytes bin, Fill fill,
                                               uint64_t& budget) {
   auto refiner = make(directory.streams[stream], stream, bin, fill, budget);
-  if (!refiner) return lightwell::fail(in_element(refiner.error(), "stream " + std::to_string(stream)));
+  if (!refiner) return lightwell::fail(in_element(std::move(refiner.error()), "stream " + std::to_string(stream)));
   return refiner;
 }
 

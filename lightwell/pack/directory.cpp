@@ -132,7 +132,7 @@ Result<Directory> Directory::read(Bytes bytes, uint64_t file_length) {
     const uint64_t place = directory.opening_length + reader.position();
     auto entry = read_stream(reader, i);
     if (entry && entry->first != expected) entry = fail(name_of(i), "does not begin where the one before it ends");
-    if (!entry) return fail(at_byte(entry.error(), place));
+    if (!entry) return fail(at_byte(std::move(entry.error()), place));
     expected += entry->length;
     directory.streams.push_back(std::move(*entry));
   }

@@ -21,7 +21,7 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
   if (header.ok() && magic != glb_magic) return fail("", "is no pack: it does not begin as a binary glTF does");
   if (prefix.size() < size.needed) return size;
   if (const uint32_t version = header.u32(); version != 2)
-    return fail({"", "header", "is of glTF version " + std::to_string(version), ErrorKind::unsupported, 4});
+    return fail(ErrorKind::unsupported, "header", "is of glTF version " + std::to_string(version));
   size.file_length = header.u32();
 
   uint64_t at = glb_header_bytes;
@@ -32,13 +32,10 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
     ByteReader chunk(prefix.subspan(at));
     const uint32_t length = chunk.u32();
     const uint32_t type = chunk.u32();
-    if (length > size.file_length - size.needed)
-      return fail({"", "chunk", "reaches beyond the end of the file", ErrorKind::bad_input, at});
-    if (type == chunk_bin && wanted == chunk_lwst)
-      return fail({"", "chunk", "BIN stands twice", ErrorKind::bad_input, at});
+    if (length > size.file_length - size.needed) return fail_at(at, "chunk", "reaches beyond the end of the file");
+    if (type == chunk_bin && wanted == chunk_lwst) return fail_at(at, "chunk", "BIN stands twice");
     if (type == chunk_lwst && wanted != chunk_json) {
-      if (size.needed + length != size.file_length)
-        return fail({"", "LWST chunk", "does not end with the file", ErrorKind::bad_input, at});
+      if (size.needed + length != size.file_length) return fail_at(at, "LWST chunk", "does not end with the file");
       at = size.needed;
       break;
     }
@@ -50,7 +47,7 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
   if (prefix.size() < size.needed) return size;
   const uint32_t directory = ByteReader(prefix.subspan(at)).u32();
   if (directory > max_directory_bytes || directory > size.file_length - at || directory < sizeof(uint32_t))
-    return fail({"", "directory", "its length is wrong", ErrorKind::bad_input, at});
+    return fail_at(at, "directory", "its length is wrong");
   size.needed = at + directory;
   size.complete = true;
   return size;

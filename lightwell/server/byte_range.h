@@ -6,7 +6,7 @@
 
 namespace lightwell {
 
-/// What a Range header (RFC 9110, 14.2) asks of a file.
+/// The part of a file that a Range header asks for (RFC 9110, 14.2).
 struct ByteRange {
   enum class Kind : uint8_t {
     whole,          ///< no range, one that is not understood, or several: the whole file, status 200

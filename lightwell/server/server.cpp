@@ -42,7 +42,7 @@ struct Shared {
   std::function<void()> left;  ///< called when a session has gone
 };
 
-/// One connection: a request, its answer, and again. Kept alive by the handlers that wait for it.
+/// One connection: requests and their answers in turn. The handlers that wait for it keep it alive.
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(tcp::socket socket, Shared& shared)
@@ -167,7 +167,7 @@ class Session : public std::enable_shared_from_this<Session> {
     return head_->keep_alive() ? read_request() : close_gently();
   }
 
-  /// Lets the client read what is on its way: closes when it has closed, or soon.
+  /// Closes once the client has, or after a while, so that it can read what is on its way.
   void close_gently() {
     error_code ignored;
     socket_.shutdown(tcp::socket::shutdown_send, ignored);
@@ -203,7 +203,7 @@ class Server::Loop {
                                                                    on_left();
                                                                  }} {}
 
-  /// The sessions that are still there go down with io_, and have nobody to tell any more.
+  /// Sessions that are left are destroyed with io_, when nothing that they could report to is left.
   ~Loop() {
     shared_.left = [] {};
   }
@@ -252,7 +252,7 @@ class Server::Loop {
       if (shared_.stopping) return;
       if (!error) std::make_shared<Session>(std::move(socket), shared_)->start();
       if (!error) return accept();
-      // Out of descriptors: wait for better times.
+      // No descriptors are left: some may be free again soon.
       pause_.expires_after(std::chrono::milliseconds(100));
       pause_.async_wait([this](error_code cancelled) {
         if (!cancelled) accept();

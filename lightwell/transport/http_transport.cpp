@@ -51,7 +51,7 @@ std::optional<Url> parse_url(std::string_view text) {
 /// A server, and the events of the requests to it.
 struct Exchange {
   asio::io_context io;
-  /// Lets io wait for its time also when nothing is under way.
+  /// Keeps io waiting until its time also when nothing is under way.
   asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(io);
   Url url;
   tcp::resolver::results_type addresses;
@@ -80,7 +80,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
       connect();
   }
 
-  /// Drops the request and the connection with it; no event comes any more.
+  /// Drops the request and the connection with it; no further event comes.
   void abandon() {
     busy_ = false;
     close();
@@ -155,7 +155,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (!parser_->keep_alive()) close();
   }
 
-  /// A server may close an idle connection at any moment: that is no failure yet.
+  /// Tries once more on a new connection when an idle one was used, since a server may close those at any moment.
   void failed_before_answer(error_code error) {
     if (busy_ && reused_) return connect();
     failed(error);

@@ -54,7 +54,7 @@ class ShapedTransport final : public Transport {
 
   void forget(uint32_t request) { answered_.erase(request); }
 
-  /// Puts an event, its bytes cut into pieces, behind what the line has to carry before it.
+  /// Queues an event, its bytes cut into pieces, behind all that the line carries before it.
   void delay(TransportEvent event) {
     const double earliest = std::max(now(), answered_[event.request]);
     if (event.kind != TransportEvent::Kind::bytes) return keep(earliest, std::move(event));
