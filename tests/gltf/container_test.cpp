@@ -62,7 +62,7 @@ TEST(Container, HeaderFaultsAreNamed) {
   EXPECT_NE(error_of(bytes).find("GLB header: announces"), std::string::npos);
   bytes = sample_glb();
   put_u32(bytes, 12, 0xfffffff0);
-  EXPECT_EQ(error_of(bytes), "chunks[0]: is longer than the file");
+  EXPECT_EQ(error_of(bytes), "chunks[0]: is longer than the file (at byte 12)");
   bytes = sample_glb();
   put_u32(bytes, 16, 0x004e4942);
   EXPECT_EQ(error_of(bytes), "chunks[0]: is not of type JSON");
