@@ -134,7 +134,7 @@ class TemporaryFile {
 Result<void> replace_file(const fs::path& path,
                           const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
   TemporaryFile temporary(path);
-  if (!temporary.file()) return fail(not_writable(path, reason(temporary.failure())));
+  if (!temporary.file()) return fail(ErrorKind::io, "", "cannot be written: " + reason(temporary.failure()));
   LW_CHECK(write_all(temporary.file(), fill));
   return temporary.replace(path);
 }
