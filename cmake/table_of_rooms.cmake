@@ -12,7 +12,7 @@ lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_
 lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
 lightwell_room(trace DEPENDS scene mesh texture base LIBRARIES embree)
 lightwell_room(render DEPENDS trace light scene texture base LIBRARIES tinyexr::tinyexr)
-lightwell_room(bake DEPENDS trace light gltf scene base)
+lightwell_room(bake DEPENDS trace light scene base)
 lightwell_room(packing DEPENDS pack light mesh texture gltf scene base)
 lightwell_room(client DEPENDS pack light mesh texture base)
 lightwell_room(transport DEPENDS client base LIBRARIES Boost::headers)

@@ -6,20 +6,16 @@
 namespace lightwell {
 namespace {
 
-/// What LIGHTWELL_lamps says of a lamp's place.
+// Where a lamp or a luminaire stands.
 struct Place {
   Luminaire::Kind kind = Luminaire::Kind::lamp;
   int node = -1;
   Vec3f center{};
 };
 
-Place place_of(const Json& lamp) {
-  Place place;
-  const Json& kind = member(lamp, "kind");
-  if (kind == "rectangle" || kind == "sphere") place.kind = Luminaire::Kind::surface;
-  place.node = index_of(lamp, "node");
-  place.center = numbers<3>(lamp, "center", {}).cast<float>();
-  return place;
+Place place_of(const ClientLamp& lamp) {
+  const bool surface = lamp.kind == ClientLamp::Kind::rectangle || lamp.kind == ClientLamp::Kind::sphere;
+  return {surface ? Luminaire::Kind::surface : Luminaire::Kind::lamp, lamp.node, lamp.center};
 }
 
 Place place_of(const Luminaire& luminaire, const Scene& scene) {
@@ -34,22 +30,16 @@ Place place_of(const Luminaire& luminaire, const Scene& scene) {
 
 }  // namespace
 
-bool contains_environment(const Json& pack) {
-  for (const Json& grid : member(extension(pack, "LIGHTWELL_light_grids"), "grids"))
-    for (const Json& what : member(grid, "contains"))
-      if (what == "environment") return true;
-  return false;
-}
-
-LuminaireSet contained_luminaires(const Json& pack, const World& world) {
+LuminaireSet contained_luminaires(std::span<const ClientLamp> lamps, const GridContents& contents,
+                                  const World& world) {
   std::vector<Place> places;
   LuminaireSet contained;
   for (const Luminaire& luminaire : world.lights().luminaires()) {
-    if (luminaire.kind() != Luminaire::Kind::environment || contains_environment(pack))
+    if (luminaire.kind() != Luminaire::Kind::environment || contents.environment)
       contained.insert(static_cast<int>(places.size()));
     places.push_back(place_of(luminaire, world.scene()));
   }
-  for (const Json& lamp : member(extension(pack, "LIGHTWELL_lamps"), "lamps")) {
+  for (const ClientLamp& lamp : lamps) {
     const Place place = place_of(lamp);
     std::optional<size_t> nearest;
     for (size_t i = 0; i < places.size(); i++) {

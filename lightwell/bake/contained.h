@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/gltf/document.h"
+#include <span>
+
+#include "lightwell/light/client_lamp.h"
+#include "lightwell/light/light_field.h"
 #include "lightwell/trace/world.h"
 
 namespace lightwell {
 
-/// True when the light grid of a pack, by its JSON, holds the light of an environment.
-bool contains_environment(const Json& pack);
-
-/// Which luminaires' direct light the grid of a pack holds, by its JSON: those of the `world` of the pack's
-/// own scene at any level. All but the lamps of LIGHTWELL_lamps, and the environment where the pack says so. A lamp is
-/// the luminaire of its node and kind that stands nearest to it.
-LuminaireSet contained_luminaires(const Json& pack, const World& world);
+/// Which luminaires' direct light the grids of a pack hold: those of the `world` of the pack's own scene at any level.
+/// All but the `lamps` that the client lights, and the environment where the grids contain it. A lamp is the luminaire
+/// of its node and kind that stands nearest to it.
+LuminaireSet contained_luminaires(std::span<const ClientLamp> lamps, const GridContents& contents, const World& world);
 
 }  // namespace lightwell

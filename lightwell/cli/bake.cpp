@@ -47,18 +47,19 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   const LuminaireSet& contained = bake.plan.contained;
   LW_TRY(grid, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
   bake.light.lamps = bake.plan.client;
-  bake.light.seed = options.scene.import.seed;
-  bake.light.estimated_error = bake.light_statistics.estimated_error;
+  PackGrid stated;
+  stated.seed = options.scene.import.seed;
+  stated.estimated_error = bake.light_statistics.estimated_error;
   const std::vector<Luminaire>& luminaires = world.lights().luminaires();
   for (size_t i = 0; i < luminaires.size(); i++) {
     if (!contained.contains(static_cast<int>(i))) continue;
-    (luminaires[i].kind() == Luminaire::Kind::environment ? bake.light.contains_environment
-                                                          : bake.light.contains_lamps) = true;
+    (luminaires[i].kind() == Luminaire::Kind::environment ? stated.contains.environment : stated.contains.lamps) = true;
   }
   LW_TRY(camera, choose_camera(world.surfaces(), ""));
   bake.camera = camera;
-  bake.field = LightField({{std::move(grid), {}, 0}});
-  bake.light.grid = &bake.field.layers().front().grid;
+  bake.field = LightField({{std::move(grid), stated.contains, stated.priority}});
+  stated.grid = &bake.field.layers().front().grid;
+  bake.light.grids = {stated};
   bake.light.exposure = choose_exposure(world, camera, bake.field, contained, options.scene.threads);
   return {};
 }
@@ -101,7 +102,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
             {"geometry", bake.pack_statistics.geometry_bytes},
             {"light", bake.pack_statistics.light_bytes},
             {"texture", bake.pack_statistics.texture_bytes}}},
-          {"estimated_error", bake.light.estimated_error},
+          {"estimated_error", bake.light_statistics.estimated_error},
           {"warnings", bake.report.warnings}};
 }
 

@@ -3,6 +3,8 @@
 
 #include "lightwell/bake/contained.h"
 #include "lightwell/cli/open_scene.h"
+#include "lightwell/packing/grids_extension.h"
+#include "lightwell/packing/lamps_extension.h"
 
 namespace lightwell {
 
@@ -10,7 +12,9 @@ Result<LuminaireSet> contained_in_grid(const std::string& path, const World& wor
   if (is_pack_file(path)) {
     LW_TRY(pack, PackReader::open_file(path));
     LW_TRY(json, pack_json(pack));
-    return contained_luminaires(json, world);
+    LW_TRY(grids, read_grids(json));
+    LW_TRY(lamps, read_lamps(json));
+    return contained_luminaires(lamps, contents_of(grids), world);
   }
   LuminaireSet contained;
   if (environment && world.lights().environment_luminaire() >= 0)
@@ -22,7 +26,8 @@ Result<void> check_environment(const std::string& path, const Scene& scene) {
   if (!is_pack_file(path) || EnvironmentLight(scene.environment).black()) return {};
   LW_TRY(pack, PackReader::open_file(path));
   LW_TRY(json, pack_json(pack));
-  if (contains_environment(json)) return {};
+  LW_TRY(grids, read_grids(json));
+  if (contents_of(grids).environment) return {};
   return fail(
       {path, "", "its light was baked without an environment: bake the scene with one, or leave --environment out"});
 }

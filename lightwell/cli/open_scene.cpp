@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "lightwell/bake/contained.h"
+#include "lightwell/packing/grids_extension.h"
 #include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
@@ -14,9 +14,10 @@ namespace {
 Result<Scene> scene_of_pack(const std::string& path, bool has_environment, const MeshLevel& level, Report& report) {
   LW_TRY(pack, PackReader::open_file(path));
   LW_TRY(json, pack_json(pack));
+  LW_TRY(grids, read_grids(json));
   LW_TRY(document, unpack_document(pack, level, report));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report));
-  if (contains_environment(json) && !has_environment && EnvironmentLight(scene.environment).black())
+  if (contents_of(grids).environment && !has_environment && EnvironmentLight(scene.environment).black())
     report.warn("environment: the pack has its light but not its picture: give it with --environment");
   return scene;
 }

@@ -4,76 +4,24 @@
 #include <algorithm>
 
 #include "lightwell/light/stream.h"
+#include "lightwell/packing/grids_extension.h"
+#include "lightwell/packing/lamps_extension.h"
+#include "lightwell/packing/member_reader.h"
 
 namespace lightwell {
 namespace {
-
-Json to_json(int32_t x) { return x; }
-Json to_json(float x) { return shortest(x); }
-
-template <typename T, int N>
-Json to_json(const Vec<T, N>& v) {
-  Json array = Json::array();
-  for (const T x : v.e) array.push_back(to_json(x));
-  return array;
-}
 
 void use_extension(Json& json, const char* name) {
   Json& used = json["extensionsUsed"];
   if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
-const char* name_of(ClientLamp::Kind kind) {
-  switch (kind) {
-    case ClientLamp::Kind::rectangle: return "rectangle";
-    case ClientLamp::Kind::sphere: return "sphere";
-    case ClientLamp::Kind::point: return "point";
-    case ClientLamp::Kind::spot: return "spot";
-    case ClientLamp::Kind::sun: return "sun";
-  }
-  return "";
-}
-
-Json lamp_json(const ClientLamp& lamp) {
-  using Kind = ClientLamp::Kind;
-  Json json{{"kind", name_of(lamp.kind)}};
-  if (!lamp.name.empty()) json["name"] = lamp.name;
-  if (lamp.kind != Kind::sun) json["center"] = to_json(lamp.center);
-  if (lamp.kind != Kind::point && lamp.kind != Kind::sphere) json["normal"] = to_json(lamp.normal);
-  if (lamp.kind == Kind::rectangle) {
-    json["u"] = to_json(lamp.half_u);
-    json["v"] = to_json(lamp.half_v);
-    if (lamp.two_sided) json["twoSided"] = true;
-  }
-  if (lamp.kind == Kind::sphere) json["radius"] = to_json(lamp.radius);
-  if (lamp.kind == Kind::rectangle || lamp.kind == Kind::sphere)
-    json["radiance"] = to_json(lamp.radiance);
-  else
-    json["intensity"] = to_json(lamp.intensity);
-  if (lamp.range > 0) json["range"] = to_json(lamp.range);
-  if (lamp.kind == Kind::spot) {
-    json["innerConeAngle"] = to_json(lamp.inner_cone);
-    json["outerConeAngle"] = to_json(lamp.outer_cone);
-  }
-  if (lamp.node >= 0) json["node"] = lamp.node;
-  if (lamp.primitive >= 0) json["primitive"] = lamp.primitive;
-  return json;
-}
-
-Json grid_json(const PackLight& light) {
-  const GridShape& shape = light.grid->shape;
-  Json contains = {"indirect"};
-  if (light.contains_environment) contains.push_back("environment");
-  if (light.contains_lamps) contains.push_back("lamps");
-  return {{"stream", 0},
-          {"min", to_json(shape.lo)},
-          {"cell", to_json(shape.cell)},
-          {"nodes", to_json(shape.nodes)},
-          {"codec", light_codec_slices},
-          {"normalOffset", to_json(light.grid->normal_offset)},
-          {"estimatedError", to_json(light.estimated_error)},
-          {"priority", 0},
-          {"contains", std::move(contains)}};
+std::vector<GridDescription> describe(const PackLight& light, const PackContent& content) {
+  std::vector<GridDescription> grids;
+  for (const PackGrid& grid : light.grids)
+    grids.push_back({static_cast<uint32_t>(content.grid_stream(grids.size())), grid.grid->shape, light_codec_slices,
+                     grid.grid->normal_offset, grid.estimated_error, grid.priority, grid.contains});
+  return grids;
 }
 
 Json mesh_json(const StreamedMesh& mesh, const Mesh& original, size_t stream) {
@@ -108,11 +56,10 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
                                                                 {"mimeType", mime_type(parameters.format)}};
       use_extension(json, "LIGHTWELL_progressive_texture");
     }
-  json["extensions"]["LIGHTWELL_light_grids"]["grids"] = Json::array({grid_json(light)});
-  use_extension(json, "LIGHTWELL_light_grids");
-  Json& lamps = json["extensions"]["LIGHTWELL_lamps"]["lamps"] = Json::array();
-  for (const ClientLamp& lamp : light.lamps) lamps.push_back(lamp_json(lamp));
-  use_extension(json, "LIGHTWELL_lamps");
+  json["extensions"][grids_extension] = to_json(describe(light, content));
+  use_extension(json, grids_extension);
+  json["extensions"][lamps_extension] = to_json(light.lamps);
+  use_extension(json, lamps_extension);
 }
 
 void add_pack_identity(Json& json, const PackId& id, float exposure) {

@@ -7,13 +7,15 @@
 
 namespace lightwell {
 
-/// The streams of a pack in their order: light, meshes, images.
+/// The streams of a pack in their order: light grids, meshes, images.
 struct PackContent {
+  size_t grids = 0;
   std::vector<StreamedMesh> meshes;
   std::vector<StreamedImage> images;
 
-  size_t mesh_stream(size_t index) const { return 1 + index; }
-  size_t image_stream(size_t index) const { return 1 + meshes.size() + index; }
+  size_t grid_stream(size_t index) const { return index; }
+  size_t mesh_stream(size_t index) const { return grids + index; }
+  size_t image_stream(size_t index) const { return grids + meshes.size() + index; }
 };
 
 /// Adds the extensions that do not depend on where streams lie: LIGHTWELL_progressive_mesh,

@@ -81,8 +81,8 @@ BasePlaces places_of(const Json& json, const Json& primitive) {
   return places;
 }
 
-Result<PackStream> light_stream(const PackLight& light) {
-  LW_TRY(encoded, encode_light(*light.grid, {.seed = light.seed}));
+Result<PackStream> light_stream(const PackGrid& grid) {
+  LW_TRY(encoded, encode_light(*grid.grid, {.seed = grid.seed}));
   PackStream stream;
   stream.kind = StreamKind::light;
   stream.codec = light_codec_slices;
@@ -145,6 +145,7 @@ void count(const PackPlan& plan, size_t file_bytes, PackStatistics& statistics) 
 Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& light, const PackOptions& options,
                                        Progress& progress, Report& report, PackStatistics& statistics) {
   PackContent content;
+  content.grids = light.grids.size();
   LW_TRY(meshes, encode_meshes(scene, options, progress));
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
@@ -158,8 +159,10 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   document = single_buffer(std::move(document), report);
 
   std::vector<PackStream> streams;
-  LW_TRY(first, light_stream(light));
-  streams.push_back(std::move(first));
+  for (const PackGrid& grid : light.grids) {
+    LW_TRY(stream, light_stream(grid));
+    streams.push_back(std::move(stream));
+  }
   for (StreamedMesh& mesh : content.meshes) {
     const Primitive& source = scene.primitives[static_cast<size_t>(mesh.primitive)];
     streams.push_back(mesh_stream(mesh, document.json, primitive_json(document.json, source)));

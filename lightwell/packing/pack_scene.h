@@ -4,6 +4,7 @@
 #include "lightwell/base/progress.h"
 #include "lightwell/light/client_lamp.h"
 #include "lightwell/light/grid.h"
+#include "lightwell/light/light_field.h"
 #include "lightwell/scene/scene.h"
 
 namespace lightwell {
@@ -13,15 +14,20 @@ struct PackOptions {
   int threads = 0;           ///< 0: all processors
 };
 
+/// A light grid as a pack states it.
+struct PackGrid {
+  const LightGrid* grid = nullptr;
+  GridContents contains{};
+  float estimated_error = 0;  ///< share of its root mean square
+  int priority = 0;           ///< where grids overlap, the one of greater priority is looked up
+  uint64_t seed = 1;          ///< of the order in which its nodes are streamed
+};
+
 /// The light of a scene as a pack states it.
 struct PackLight {
-  const LightGrid* grid = nullptr;
+  std::vector<PackGrid> grids;
   std::vector<ClientLamp> lamps;  ///< of the client, the strongest first
-  bool contains_environment = false;
-  bool contains_lamps = false;  ///< the direct light of some lamp
-  float estimated_error = 0;    ///< of the grid, share of its root mean square
-  float exposure = 0;           ///< EV
-  uint64_t seed = 1;
+  float exposure = 0;             ///< EV
 };
 
 struct PackStatistics {
@@ -31,7 +37,7 @@ struct PackStatistics {
 };
 
 /// Makes the pack of a scene (docs/format.md): its glTF with the coarsest level of every mesh and a small picture for
-/// every image, and the streams that refine them: light first, then meshes, the ones of greatest error first, then
+/// every image, and the streams that refine them: the grids first, then meshes, the ones of greatest error first, then
 /// images. Meshes that deform, lines and points go into the opening as they are. Fails when the user cancels or a limit
 /// of the format is exceeded.
 Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& light, const PackOptions& options,

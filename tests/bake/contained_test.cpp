@@ -8,11 +8,12 @@
 namespace lightwell {
 namespace {
 
-/// The JSON of a pack whose client has these lamps.
-Json pack_with(const Json& lamps, const Json& contains) {
-  return {{"extensions",
-           {{"LIGHTWELL_lamps", {{"lamps", lamps}}},
-            {"LIGHTWELL_light_grids", {{"grids", Json::array({{{"contains", contains}}})}}}}}};
+ClientLamp lamp_of(ClientLamp::Kind kind, const Vec3f& center, int node) {
+  ClientLamp lamp;
+  lamp.kind = kind;
+  lamp.center = center;
+  lamp.node = node;
+  return lamp;
 }
 
 /// Three lit panels of one node, a point lamp of another, and a sky.
@@ -32,25 +33,17 @@ Scene scene_of_lamps() {
 TEST(ContainedLuminaires, AreAllButTheClientsLamps) {
   const Scene scene = scene_of_lamps();
   const auto world = world_of(scene);
-  const Json panel = {{"kind", "rectangle"}, {"center", {3.6, 3, 0.4}}, {"node", 4}};
-  const Json point = {{"kind", "point"}, {"center", {1, 1, 1}}, {"node", 7}};
-  const Json other = {{"kind", "point"}, {"node", 9}};
-  const auto contained = [&](const Json& lamps, const Json& contains) {
-    return contained_luminaires(pack_with(lamps, contains), *world);
+  const ClientLamp panel = lamp_of(ClientLamp::Kind::rectangle, {{3.6f, 3, 0.4f}}, 4);
+  const ClientLamp point = lamp_of(ClientLamp::Kind::point, {{1, 1, 1}}, 7);
+  const ClientLamp other = lamp_of(ClientLamp::Kind::point, {}, 9);
+  const auto contained = [&](const std::vector<ClientLamp>& lamps, bool environment) {
+    return contained_luminaires(lamps, {.environment = environment}, *world);
   };
-  EXPECT_EQ(contained(Json::array({panel}), {"indirect", "lamps"}), luminaires({1, 1, 0, 1, 0}));
-  EXPECT_EQ(contained(Json::array({panel, point}), {"indirect", "environment"}), luminaires({0, 1, 0, 1, 1}));
+  EXPECT_EQ(contained({panel}, false), luminaires({1, 1, 0, 1, 0}));
+  EXPECT_EQ(contained({panel, point}, true), luminaires({0, 1, 0, 1, 1}));
   // Two lamps at one place are two luminaires; one of another node is none of these.
-  EXPECT_EQ(contained(Json::array({panel, panel}), Json::array({"indirect"})), luminaires({1, 1, 0, 0, 0}));
-  EXPECT_EQ(contained(Json::array({other}), Json::array({"indirect"})), luminaires({1, 1, 1, 1, 0}));
-}
-
-TEST(ContainedLuminaires, SurviveAnyJson) {
-  const Scene scene = scene_of_lamps();
-  const auto world = world_of(scene);
-  for (const Json& nonsense : {Json(), Json("x"), Json(3), Json{{"kind", 5}, {"center", "here"}, {"node", -2}},
-                               Json{{"kind", "sphere"}, {"center", {Json(), "a"}}, {"node", 4}}})
-    EXPECT_FALSE(contained_luminaires(pack_with(Json::array({nonsense}), nonsense), *world).contains(4));
+  EXPECT_EQ(contained({panel, panel}, false), luminaires({1, 1, 0, 0, 0}));
+  EXPECT_EQ(contained({other}, false), luminaires({1, 1, 1, 1, 0}));
 }
 
 }  // namespace

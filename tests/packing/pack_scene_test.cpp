@@ -47,7 +47,7 @@ Packed pack(Document document) {
   packed.scene = scene_from_document(std::move(document), "test", report).value();
   const LightGrid grid = some_light(packed.scene.bounds());
   PackLight light;
-  light.grid = &grid;
+  light.grids = {{.grid = &grid}};
   light.exposure = 1.5f;
   Progress progress;
   auto file = make_pack(packed.scene, light, {}, progress, report, packed.statistics);
@@ -313,7 +313,7 @@ TEST(MakePack, GivesTheSameBytesForAnyNumberOfThreads) {
   const Scene scene = scene_from_document(room(), "test", report).value();
   const LightGrid grid = some_light(scene.bounds());
   PackLight light;
-  light.grid = &grid;
+  light.grids = {{.grid = &grid}};
   Progress progress;
   std::vector<std::vector<uint8_t>> files;
   for (int threads : {1, 2, 5}) {
