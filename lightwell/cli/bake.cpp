@@ -34,8 +34,8 @@ struct Bake {
 };
 
 Result<void> import_scene(const Options& options, Bake& bake) {
-  LW_TRY(scene, open_scene(options.scene, bake.report));
-  bake.scene = std::move(scene);
+  LW_TRY(opened, open_scene(options.scene, bake.report));
+  bake.scene = std::move(opened.scene);
   LW_TRY(world, World::build(bake.scene, options.scene.threads));
   bake.world = std::move(world);
   return {};

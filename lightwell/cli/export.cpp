@@ -41,7 +41,7 @@ Mesh merge(const Scene& scene) {
 Result<Outcome> write(const Options& options, Report& report) {
   LW_CHECK(check_output(options.output, {options.pack}));
   LW_CHECK(refuse_builtin_scene(options.pack));
-  LW_TRY(pack, PackReader::open_file(options.pack));
+  LW_TRY(pack, OpenedPack::open_file(options.pack));
   LW_TRY(document, unpack_document(pack, options.level, report));
   LW_TRY(scene, scene_from_document(document, "", report));
   Outcome outcome;

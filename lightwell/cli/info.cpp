@@ -3,7 +3,8 @@
 #include "lightwell/cli/info_text.h"
 #include "lightwell/cli/pack_name.h"
 #include "lightwell/mesh/stream.h"
-#include "lightwell/packing/unpack.h"
+#include "lightwell/packing/lamps_extension.h"
+#include "lightwell/packing/opened_pack.h"
 
 namespace lightwell {
 namespace {
@@ -28,39 +29,36 @@ Result<Figures> mesh_figures(const StreamEntry& entry) {
                  {"bits_per_vertex", 8.0 * entry.length / std::max(1u, layout.vertices - layout.base_vertices)}};
 }
 
-Figures grid_figures(const PackReader& pack, const Json& grid) {
-  Figures figures{{"nodes", grid.value("nodes", Json())},
-                  {"cell", grid.value("cell", Json())},
-                  {"codec", grid.value("codec", Json())}};
-  const auto stream = static_cast<size_t>(std::max(0, index_of(grid, "stream")));
-  double nodes = 1;
-  for (const Json& n : member(grid, "nodes")) nodes *= n.is_number() ? n.get<double>() : 1;
-  if (stream < pack.directory().streams.size())
-    figures["bytes_per_node"] = pack.directory().streams[stream].length / nodes;
-  figures["contains"] = grid.value("contains", Json());
-  return figures;
+Figures grid_figures(const OpenedPack& pack, const GridDescription& grid) {
+  const Json said = to_json(std::span(&grid, 1))["grids"][0];
+  const double bytes = pack.reader().directory().streams[grid.stream].length;
+  return {{"nodes", said["nodes"]},
+          {"cell", said["cell"]},
+          {"codec", grid.codec},
+          {"bytes_per_node", bytes / static_cast<double>(grid.shape.count())},
+          {"contains", said["contains"]}};
 }
 
 Result<Figures> describe(const std::string& path, bool blocks) {
   LW_CHECK(refuse_builtin_scene(path));
-  LW_TRY(pack, PackReader::open_file(path));
-  LW_TRY(json, pack_json(pack));
+  LW_TRY(pack, OpenedPack::open_file(path));
+  const Directory& directory = pack.reader().directory();
+  const Json& json = pack.json();
   const Json& scenes = member(json, "scenes");
   Figures figures{{"scene", text(element(scenes, static_cast<size_t>(number(json, "scene", 0))), "name")},
-                  {"id", to_text(pack.directory().id)},
+                  {"id", to_text(directory.id)},
                   {"streams", Figures::array()},
                   {"meshes", Figures::array()},
                   {"grids", Figures::array()},
                   {"lamps", Figures::array()}};
-  for (size_t i = 0; i < pack.directory().streams.size(); i++) {
-    figures["streams"].push_back(stream_figures(pack, i, blocks));
-    if (pack.directory().streams[i].kind != StreamKind::mesh) continue;
-    LW_TRY(mesh, mesh_figures(pack.directory().streams[i]));
+  for (size_t i = 0; i < directory.streams.size(); i++) {
+    figures["streams"].push_back(stream_figures(pack.reader(), i, blocks));
+    if (directory.streams[i].kind != StreamKind::mesh) continue;
+    LW_TRY(mesh, mesh_figures(directory.streams[i]));
     figures["meshes"].push_back(std::move(mesh));
   }
-  for (const Json& grid : member(extension(json, "LIGHTWELL_light_grids"), "grids"))
-    figures["grids"].push_back(grid_figures(pack, grid));
-  for (const Json& lamp : member(extension(json, "LIGHTWELL_lamps"), "lamps")) figures["lamps"].push_back(lamp);
+  for (const GridDescription& grid : pack.grids()) figures["grids"].push_back(grid_figures(pack, grid));
+  figures["lamps"] = to_json(pack.lamps())["lamps"];
   return figures;
 }
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "lightwell/packing/grids_extension.h"
+#include "lightwell/packing/unpack.h"
 #include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
@@ -11,15 +11,18 @@
 namespace lightwell {
 namespace {
 
-Result<Scene> scene_of_pack(const std::string& path, bool has_environment, const MeshLevel& level, Report& report) {
-  LW_TRY(pack, PackReader::open_file(path));
-  LW_TRY(json, pack_json(pack));
-  LW_TRY(grids, read_grids(json));
+Result<OpenedScene> open_pack(const std::string& path, bool has_environment, const MeshLevel& level, Report& report) {
+  LW_TRY(pack, OpenedPack::open_file(path));
   LW_TRY(document, unpack_document(pack, level, report));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report));
-  if (contents_of(grids).environment && !has_environment && EnvironmentLight(scene.environment).black())
+  if (contents_of(pack.grids()).environment && !has_environment && EnvironmentLight(scene.environment).black())
     report.warn("environment: the pack has its light but not its picture: give it with --environment");
-  return scene;
+  return OpenedScene{std::move(scene), std::move(pack)};
+}
+
+Result<OpenedScene> open_other(const std::string& path, const ImportOptions& options, Report& report) {
+  LW_TRY(scene, load_scene(path, options, report));
+  return OpenedScene{std::move(scene), std::nullopt};
 }
 
 // The object of that name; one takes the place of anything else that a file may have there.
@@ -45,19 +48,19 @@ Result<void> refuse_conventions(const std::string& path, const ImportOptions& as
 
 }  // namespace
 
-Result<Scene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level) {
+Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level) {
   const std::string& path = options.path;
   const bool pack = is_pack_file(path);
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
-  auto scene = pack ? scene_of_pack(path, !options.environment.empty(), level, report)
-                    : load_scene(path, options.import, report);
-  if (!scene) return fail(in_file(scene.error(), path));
+  auto opened = pack ? open_pack(path, !options.environment.empty(), level, report)
+                     : open_other(path, options.import, report);
+  if (!opened) return fail(in_file(opened.error(), path));
   if (!options.environment.empty()) {
     LW_TRY(surroundings, read_environment(options.environment));
-    if (!surroundings.map) note_sky(*scene, surroundings.radiance);
-    scene->environment = std::move(surroundings);
+    if (!surroundings.map) note_sky(opened->scene, surroundings.radiance);
+    opened->scene.environment = std::move(surroundings);
   }
-  return scene;
+  return opened;
 }
 
 Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice) {
@@ -68,17 +71,6 @@ Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choi
   const auto number = parse_count(choice);
   if (number && *number < scene.cameras.size()) return scene.cameras[*number];
   return fail("camera " + choice, "is not in the scene, which has " + std::to_string(scene.cameras.size()));
-}
-
-Result<LightField> open_light(const std::string& path, const LightLevel& level) {
-  auto field = [&]() -> Result<LightField> {
-    LW_TRY(pack, PackReader::open_file(path));
-    LW_TRY(stream, find_light_stream(pack));
-    LW_TRY(grid, unpack_light(pack, stream, level));
-    return LightField({{std::move(grid), {}, 0}});
-  }();
-  if (!field) return fail(in_file(field.error(), path));
-  return field;
 }
 
 }  // namespace lightwell

@@ -15,7 +15,8 @@ struct Options {
 
 Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ProbePoint>& points, Progress& progress,
                                     Report& report) {
-  LW_TRY(scene, open_scene(options.scene, report));
+  LW_TRY(opened, open_scene(options.scene, report));
+  const Scene& scene = opened.scene;
   LW_TRY(world, World::build(scene, options.scene.threads));
   ProbeOptions probe_options = options.probe;
   probe_options.seed = options.scene.import.seed;
@@ -25,10 +26,10 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Pr
     light.left_out.insert(world->lights().environment_luminaire());
   LightField field;
   if (probe_options.integrator->needs_field) {
-    LW_CHECK(check_environment(options.scene.path, scene));
-    LW_TRY(held, contained_in_grid(options.scene.path, *world, !options.without_environment));
+    LW_CHECK(check_environment(opened));
+    const LuminaireSet held = contained_in_grids(opened, *world, !options.without_environment);
     light.held = held;
-    LW_TRY(found, light_of(options.scene, *world, held, progress));
+    LW_TRY(found, light_of(opened, options.scene, *world, held, progress));
     field = std::move(found);
     light.field = &field;
   }

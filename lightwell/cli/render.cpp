@@ -48,22 +48,23 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
   Figures figures;
-  LW_TRY(scene, open_scene(options.scene, report, options.mesh_level));
+  LW_TRY(opened, open_scene(options.scene, report, options.mesh_level));
+  const Scene& scene = opened.scene;
   LW_TRY(world, World::build(scene, options.scene.threads));
   LW_TRY(camera, choose_camera(world->surfaces(), options.camera));
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);
   const bool needs_field = render_options.integrator->needs_field;
-  if (needs_field) LW_CHECK(check_environment(options.scene.path, scene));
-  LW_TRY(held, contained_in_grid(options.scene.path, *world));
+  if (needs_field) LW_CHECK(check_environment(opened));
+  const LuminaireSet held = contained_in_grids(opened, *world);
   LightField field;
   Display display = options.display;
   const bool chooses_exposure = !options.exposure && is_for_the_eye(options.output);
   if (needs_field || chooses_exposure) {
     SceneOptions light = options.scene;
     if (!needs_field) light.photons = std::min(light.photons, exposure_photons);
-    LW_TRY(found, light_of(light, *world, held, progress, options.light_level));
+    LW_TRY(found, light_of(opened, light, *world, held, progress, options.light_level));
     field = std::move(found);
   }
   if (needs_field) {

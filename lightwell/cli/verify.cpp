@@ -9,7 +9,7 @@ namespace {
 
 int verify(const std::string& path, const Console& console) {
   if (auto name = refuse_builtin_scene(path); !name) return console.fail(name.error());
-  auto pack = PackReader::open_file(path);
+  auto pack = OpenedPack::open_file(path);
   if (!pack) return console.fail(in_file(pack.error(), path));
   const Verification verification = verify_pack(*pack);
   const bool ok = verification.errors.empty();

@@ -5,6 +5,7 @@
 #include "lightwell/gltf/document.h"
 #include "lightwell/gltf/expand.h"
 #include "lightwell/gltf/extensions.h"
+#include "lightwell/gltf/parsed_document.h"
 #include "lightwell/gltf/resource.h"
 
 namespace lightwell {
@@ -133,6 +134,20 @@ Result<void> check_stand_ins(const Document& document) {
   return {};
 }
 
+Result<Document> read_chunks(Json json, const Chunks& chunks, size_t file_bytes, const std::filesystem::path& folder,
+                             Report& report) {
+  LW_CHECK(check_version(json));
+  LW_CHECK(check_required_extensions(json));
+  drop_unknown_extensions(json, report);
+  LW_CHECK(check_document(json, report));
+  Document document{std::move(json), {}, folder};
+  LW_CHECK(read_buffers(document, chunks));
+  LW_CHECK(expand(document, file_bytes));
+  drop_unused(document);
+  LW_CHECK(check_stand_ins(document));
+  return document;
+}
+
 }  // namespace
 
 bool is_gltf(Bytes bytes) {
@@ -150,16 +165,11 @@ Result<Document> read_document(Bytes bytes, const std::filesystem::path& folder,
     chunks = split;
   }
   LW_TRY(json, parse_json(chunks.json, static_cast<uint64_t>(chunks.json.data() - bytes.data())));
-  LW_CHECK(check_version(json));
-  LW_CHECK(check_required_extensions(json));
-  drop_unknown_extensions(json, report);
-  LW_CHECK(check_document(json, report));
-  Document document{std::move(json), {}, folder};
-  LW_CHECK(read_buffers(document, chunks));
-  LW_CHECK(expand(document, bytes.size()));
-  drop_unused(document);
-  LW_CHECK(check_stand_ins(document));
-  return document;
+  return read_chunks(std::move(json), chunks, bytes.size(), folder, report);
+}
+
+Result<Document> read_document(Json json, Bytes bin, Report& report) {
+  return read_chunks(std::move(json), {{}, bin, !bin.empty()}, bin.size(), {}, report);
 }
 
 }  // namespace lightwell

@@ -30,6 +30,12 @@ Uses uses_of(const Json& json) {
     Role& known = uses.accessors[index];
     known = known == Role::unused || known == role ? role : Role::other;
   });
+  // What an accessor that nothing refers to says of a view does not keep the others from moving.
+  for (size_t i = 0; i < uses.accessors.size(); i++) {
+    const int view = index_of(json["accessors"][i], "bufferView");
+    if (uses.accessors[i] == Role::unused && view >= 0 && static_cast<size_t>(view) < uses.views.size())
+      uses.views[static_cast<size_t>(view)]--;
+  }
   return uses;
 }
 
@@ -46,7 +52,6 @@ bool movable(const Document& document, const Uses& uses, size_t accessor) {
 }  // namespace
 
 void share_buffer_views(Document& document) {
-  drop_unused(document);
   const Uses uses = uses_of(document.json);
   std::map<ViewKind, std::vector<size_t>> kinds;
   for (size_t i = 0; i < uses.accessors.size(); i++)
@@ -70,7 +75,6 @@ void share_buffer_views(Document& document) {
     }
     append_buffer_view(document, std::move(shared), role == Role::vertices ? stride : 0, static_cast<int>(role));
   }
-  drop_unused(document);
 }
 
 }  // namespace lightwell

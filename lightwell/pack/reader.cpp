@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/pack/reader.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <system_error>
 
@@ -39,6 +39,34 @@ Result<std::vector<uint8_t>> read_head(const FetchBytes& fetch, uint64_t file_le
   return head;
 }
 
+// A file that is open for reading. Reads are positional, so that threads do not move each other's place.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    if (is_open()) ::close(descriptor_);
+  }
+
+  bool is_open() const { return descriptor_ >= 0; }
+
+  Result<std::vector<uint8_t>> read(uint64_t first, uint64_t count) const {
+    std::vector<uint8_t> bytes(count);
+    for (size_t done = 0; done < bytes.size();) {
+      const ssize_t got = ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(first + done));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0)
+        return fail({"", std::to_string(count) + " bytes", "cannot be read", ErrorKind::io, first});
+      done += static_cast<size_t>(got);
+    }
+    return bytes;
+  }
+
+ private:
+  int descriptor_;
+};
+
 struct FileBytes {
   FetchBytes fetch;
   uint64_t length = 0;
@@ -49,17 +77,9 @@ Result<FileBytes> open_bytes(const std::string& path) {
   if (std::filesystem::is_directory(path, missing)) return fail({path, "", "is a folder", ErrorKind::io});
   const uint64_t length = std::filesystem::file_size(path, missing);
   if (missing) return fail({path, "", missing.message(), ErrorKind::io});
-  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
-  if (!*file) return fail({path, "", std::generic_category().message(errno), ErrorKind::io});
-  const FetchBytes fetch = [file](uint64_t first, uint64_t count) -> Result<std::vector<uint8_t>> {
-    std::vector<uint8_t> bytes(count);
-    file->clear();
-    file->seekg(static_cast<std::streamoff>(first));
-    file->read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(count));
-    if (!*file) return fail({"", std::to_string(count) + " bytes", "cannot be read", ErrorKind::io, first});
-    return bytes;
-  };
-  return FileBytes{fetch, length};
+  const auto file = std::make_shared<const OpenFile>(path);
+  if (!file->is_open()) return fail({path, "", std::generic_category().message(errno), ErrorKind::io});
+  return FileBytes{[file](uint64_t first, uint64_t count) { return file->read(first, count); }, length};
 }
 
 }  // namespace

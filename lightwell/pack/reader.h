@@ -9,15 +9,18 @@
 
 namespace lightwell {
 
-/// Gives `length` bytes of a file from position `first` on, or says why it cannot.
+/// Gives `length` bytes of a file from position `first` on, or says why it cannot. Threads may call it at the same time
+/// wherever they read blocks of one reader at the same time.
 using FetchBytes = std::function<Result<std::vector<uint8_t>>(uint64_t first, uint64_t length)>;
 
 /// Reads a pack block by block with every check, for programs that wait for their bytes (info, verify, export).
+/// Threads may call the const functions of one reader at the same time when its FetchBytes may be called so, as that of
+/// open_file may.
 class PackReader {
  public:
   /// Reads the opening, the directory and all table pages.
   static Result<PackReader> open(FetchBytes fetch, uint64_t file_length);
-  /// Reads a pack from a file; at most a block of it is in memory at a time.
+  /// Reads a pack from a file; at most a block of it is in memory at a time. Its reads are positional.
   static Result<PackReader> open_file(const std::string& path);
 
   const Directory& directory() const { return directory_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/packing/pack_scene.h"
+#include "lightwell/scene/scene.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {

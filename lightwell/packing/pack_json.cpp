@@ -6,7 +6,9 @@
 #include "lightwell/light/stream.h"
 #include "lightwell/packing/grids_extension.h"
 #include "lightwell/packing/lamps_extension.h"
-#include "lightwell/packing/member_reader.h"
+#include "lightwell/packing/mesh_extension.h"
+#include "lightwell/packing/streams_extension.h"
+#include "lightwell/packing/texture_extension.h"
 
 namespace lightwell {
 namespace {
@@ -24,14 +26,15 @@ std::vector<GridDescription> describe(const PackLight& light, const PackContent&
   return grids;
 }
 
-Json mesh_json(const StreamedMesh& mesh, const Mesh& original, size_t stream) {
+RefinedPrimitive describe(const StreamedMesh& mesh, const Primitive& source, size_t stream) {
   const MeshLayout& layout = mesh.encoded.layout;
-  const Box3f bounds = original.bounds();
-  return {{"stream", stream},
-          {"vertices", layout.vertices},
-          {"faces", layout.faces},
-          {"bounds", {{"min", to_json(bounds.lo)}, {"max", to_json(bounds.hi)}}},
-          {"error", to_json(layout.base_error)}};
+  return {static_cast<uint32_t>(stream),
+          layout.vertices,
+          layout.faces,
+          source.mesh.bounds(),
+          layout.base_error,
+          static_cast<size_t>(source.source_mesh),
+          static_cast<size_t>(source.source_primitive)};
 }
 
 }  // namespace
@@ -40,21 +43,18 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   Json& json = document.json;
   for (size_t i = 0; i < content.meshes.size(); i++) {
     const Primitive& source = scene.primitives[static_cast<size_t>(content.meshes[i].primitive)];
-    Json& primitive = json["meshes"][static_cast<size_t>(source.source_mesh)]["primitives"]
-                          [static_cast<size_t>(source.source_primitive)];
-    primitive["extensions"]["LIGHTWELL_progressive_mesh"] =
-        mesh_json(content.meshes[i], source.mesh, content.mesh_stream(i));
-    use_extension(json, "LIGHTWELL_progressive_mesh");
+    const RefinedPrimitive refined = describe(content.meshes[i], source, content.mesh_stream(i));
+    json["meshes"][refined.mesh]["primitives"][refined.primitive]["extensions"][mesh_extension] = to_json(refined);
+    use_extension(json, mesh_extension);
   }
   for (size_t i = 0; i < content.images.size(); i++)
     for (Json& texture : json["textures"]) {
       if (index_of(texture, "source") != content.images[i].image) continue;
       const TextureParameters& parameters = content.images[i].parameters;
-      texture["extensions"]["LIGHTWELL_progressive_texture"] = {{"stream", content.image_stream(i)},
-                                                                {"width", parameters.width},
-                                                                {"height", parameters.height},
-                                                                {"mimeType", mime_type(parameters.format)}};
-      use_extension(json, "LIGHTWELL_progressive_texture");
+      texture["extensions"][texture_extension] =
+          to_json(RefinedTexture{static_cast<uint32_t>(content.image_stream(i)), parameters.width, parameters.height,
+                                 parameters.format});
+      use_extension(json, texture_extension);
     }
   json["extensions"][grids_extension] = to_json(describe(light, content));
   use_extension(json, grids_extension);
@@ -63,11 +63,9 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
 }
 
 void add_pack_identity(Json& json, const PackId& id, float exposure) {
-  json["extensions"]["LIGHTWELL_streams"] = {{"version", format_version},
-                                             {"id", to_text(id)},
-                                             {"generator", "lightwell " LIGHTWELL_VERSION},
-                                             {"exposure", to_json(exposure)}};
-  use_extension(json, "LIGHTWELL_streams");
+  json["extensions"][streams_extension] =
+      to_json(PackIdentity{format_version, to_text(id), "lightwell " LIGHTWELL_VERSION, exposure});
+  use_extension(json, streams_extension);
 }
 
 }  // namespace lightwell

@@ -3,6 +3,7 @@
 
 #include "lightwell/pack/writer.h"
 #include "lightwell/packing/pack_images.h"
+#include "lightwell/packing/pack_light.h"
 #include "lightwell/packing/pack_meshes.h"
 
 namespace lightwell {

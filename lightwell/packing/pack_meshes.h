@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lightwell/base/progress.h"
 #include "lightwell/mesh/stream.h"
-#include "lightwell/packing/pack_scene.h"
+#include "lightwell/packing/pack_options.h"
+#include "lightwell/scene/scene.h"
 
 namespace lightwell {
 

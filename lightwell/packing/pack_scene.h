@@ -2,33 +2,11 @@
 #pragma once
 
 #include "lightwell/base/progress.h"
-#include "lightwell/light/client_lamp.h"
-#include "lightwell/light/grid.h"
-#include "lightwell/light/light_field.h"
+#include "lightwell/packing/pack_light.h"
+#include "lightwell/packing/pack_options.h"
 #include "lightwell/scene/scene.h"
 
 namespace lightwell {
-
-struct PackOptions {
-  float position_error = 0;  ///< metres that a vertex may move; 0: 14 bits for the longest side of each mesh
-  int threads = 0;           ///< 0: all processors
-};
-
-/// A light grid as a pack states it.
-struct PackGrid {
-  const LightGrid* grid = nullptr;
-  GridContents contains{};
-  float estimated_error = 0;  ///< share of its root mean square
-  int priority = 0;           ///< where grids overlap, the one of greater priority is looked up
-  uint64_t seed = 1;          ///< of the order in which its nodes are streamed
-};
-
-/// The light of a scene as a pack states it.
-struct PackLight {
-  std::vector<PackGrid> grids;
-  std::vector<ClientLamp> lamps;  ///< of the client, the strongest first
-  float exposure = 0;             ///< EV
-};
 
 struct PackStatistics {
   uint64_t triangles = 0;  ///< of all meshes, instances counted once

@@ -4,8 +4,10 @@
 #include <array>
 
 #include "lightwell/gltf/extensions.h"
+#include "lightwell/gltf/parsed_document.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/pack/opening.h"
+#include "lightwell/packing/lamps_extension.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {
@@ -60,42 +62,26 @@ Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream)
   return decoder.file();
 }
 
-// A stream that the JSON names must exist and be of the kind.
-Result<void> check_kind(const PackReader& pack, size_t stream, StreamKind kind) {
-  const auto& streams = pack.directory().streams;
-  if (stream >= streams.size() || streams[stream].kind != kind)
-    return fail("JSON", "stream " + std::to_string(stream) + " is no " + to_text(kind) + " stream");
-  return {};
-}
-
 Result<void> refine_meshes(Document& document, const PackRefinement& refinement) {
-  const Json meshes = member(document.json, "meshes");
-  for (size_t m = 0; m < meshes.size(); m++) {
-    const Json& primitives = member(meshes[m], "primitives");
-    for (size_t p = 0; p < primitives.size(); p++) {
-      const int stream = index_of(extension(primitives[p], "LIGHTWELL_progressive_mesh"), "stream");
-      if (stream < 0) continue;
-      LW_TRY(mesh, refinement.mesh(static_cast<size_t>(stream)));
-      const Json arrays = DocumentBuilder(document).primitive(mesh);
-      Json& target = document.json["meshes"][m]["primitives"][p];
-      target["attributes"] = arrays["attributes"];
-      target["indices"] = arrays["indices"];
-    }
+  LW_TRY(primitives, read_refined_primitives(document.json));
+  for (const RefinedPrimitive& refined : primitives) {
+    LW_TRY(mesh, refinement.mesh(refined.stream));
+    const Json arrays = DocumentBuilder(document).primitive(mesh);
+    Json& target = document.json["meshes"][refined.mesh]["primitives"][refined.primitive];
+    target["attributes"] = arrays["attributes"];
+    target["indices"] = arrays["indices"];
   }
   return {};
 }
 
 Result<void> complete_images(Document& document, const PackRefinement& refinement) {
-  const Json textures = member(document.json, "textures");
-  for (const Json& texture : textures) {
-    const Json& progressive = extension(texture, "LIGHTWELL_progressive_texture");
-    const int stream = index_of(progressive, "stream"), image = index_of(texture, "source");
-    if (stream < 0 || image < 0) continue;
-    LW_TRY(file, refinement.image(static_cast<size_t>(stream)));
+  LW_TRY(textures, read_refined_textures(document.json));
+  for (const RefinedTexture& refined : textures) {
+    LW_TRY(file, refinement.image(refined.stream));
     if (file.empty()) continue;
     const int view = DocumentBuilder(document).buffer_view(file);
-    Json& target = document.json["images"][static_cast<size_t>(image)];
-    target["mimeType"] = text(progressive, "mimeType");
+    Json& target = document.json["images"][refined.source];
+    target["mimeType"] = mime_type(refined.format);
     target["bufferView"] = view;
   }
   return {};
@@ -103,8 +89,8 @@ Result<void> complete_images(Document& document, const PackRefinement& refinemen
 
 // Removes the LIGHTWELL_ extensions, which would be wrong of the refined document.
 void drop_extensions(Json& json) {
-  constexpr std::array names = {"LIGHTWELL_streams", "LIGHTWELL_light_grids", "LIGHTWELL_lamps",
-                                "LIGHTWELL_progressive_mesh", "LIGHTWELL_progressive_texture"};
+  constexpr std::array names = {streams_extension, grids_extension, lamps_extension, mesh_extension,
+                                texture_extension};
   const auto drop = [&](Json& object) {
     if (!object.contains("extensions")) return;
     for (const char* name : names) object["extensions"].erase(name);
@@ -121,18 +107,11 @@ void drop_extensions(Json& json) {
 
 }  // namespace
 
-Result<Json> pack_json(const PackReader& pack) {
-  const Bytes opening = pack.opening(), json = glb_chunks(opening).json;
-  return parse_json(json, static_cast<uint64_t>(json.data() - opening.data()));
-}
-
-Bytes pack_bin(const PackReader& pack) { return glb_chunks(pack.opening()).bin; }
-
 Result<MeshDecoder> open_mesh_stream(const PackReader& pack, const StreamEntry& entry) {
   ByteReader parameters(entry.parameters);
   LW_TRY(layout, MeshLayout::read(parameters));
   LW_TRY(places, BasePlaces::read(parameters));
-  LW_TRY(base, BaseArrays::read(layout, places, pack_bin(pack)));
+  LW_TRY(base, BaseArrays::read(layout, places, glb_chunks(pack.opening()).bin));
   return MeshDecoder::open(layout, base.view(), entry.length);
 }
 
@@ -144,17 +123,12 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
   return {};
 }
 
-Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report) {
-  auto document = read_document(pack.opening(), {}, report);
+Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report) {
+  auto document = read_document(pack.json(), pack.bin(), report);
   if (!document) return document;
-  const PackRefinement refinement{[&](size_t stream) -> Result<Mesh> {
-                                    LW_CHECK(check_kind(pack, stream, StreamKind::mesh));
-                                    return unpack_mesh(pack, stream, level);
-                                  },
-                                  [&](size_t stream) -> Result<std::vector<uint8_t>> {
-                                    LW_CHECK(check_kind(pack, stream, StreamKind::texture));
-                                    return unpack_image(pack, stream);
-                                  }};
+  const PackRefinement refinement{
+      [&](size_t stream) { return unpack_mesh(pack.reader(), stream, level); },
+      [&](size_t stream) { return unpack_image(pack.reader(), stream); }};
   LW_CHECK(refine_document(*document, refinement));
   return document;
 }
@@ -172,13 +146,6 @@ Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const Ligh
   LightGrid grid = decoder.grid();
   push_pull(grid, decoder.known(), level.fill);
   return grid;
-}
-
-Result<size_t> find_light_stream(const PackReader& pack) {
-  const auto& streams = pack.directory().streams;
-  for (size_t i = 0; i < streams.size(); i++)
-    if (streams[i].kind == StreamKind::light) return i;
-  return fail("", "holds no light");
 }
 
 }  // namespace lightwell

@@ -6,7 +6,7 @@
 #include "lightwell/gltf/document.h"
 #include "lightwell/light/push_pull.h"
 #include "lightwell/mesh/base_places.h"
-#include "lightwell/pack/reader.h"
+#include "lightwell/packing/opened_pack.h"
 
 namespace lightwell {
 
@@ -16,12 +16,6 @@ struct MeshLevel {
   float share = 1;
   float error = -1;
 };
-
-/// The JSON chunk of a pack, with its LIGHTWELL_ extensions.
-Result<Json> pack_json(const PackReader& pack);
-
-/// The data of its BIN chunk, good as long as the reader.
-Bytes pack_bin(const PackReader& pack);
 
 /// The decoder of a mesh stream of a pack, at its coarsest level. Fails when stream and BIN chunk do not fit.
 Result<MeshDecoder> open_mesh_stream(const PackReader& pack, const StreamEntry& entry);
@@ -36,7 +30,7 @@ struct PackRefinement {
 Result<void> refine_document(Document& document, const PackRefinement& refinement);
 
 /// The glTF of a pack at a level, without the LIGHTWELL_ extensions: the opening with refined meshes and whole images.
-Result<Document> unpack_document(const PackReader& pack, const MeshLevel& level, Report& report);
+Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report);
 
 /// How much of a light grid is wanted: the first bundles that bring at least `share` of its nodes, the others filled.
 struct LightLevel {
@@ -46,8 +40,5 @@ struct LightLevel {
 
 /// The light grid of a light stream at a level.
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level);
-
-/// The first light stream of a pack; fails when there is none.
-Result<size_t> find_light_stream(const PackReader& pack);
 
 }  // namespace lightwell

@@ -7,6 +7,7 @@
 #include "lightwell/light/stream.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/packing/verify_json.h"
+#include "lightwell/packing/verify_scene.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {
@@ -66,21 +67,20 @@ Result<void> verify_stream(const PackReader& pack, size_t stream, uint64_t& bloc
 
 }  // namespace
 
-Verification verify_pack(const PackReader& pack) {
+Verification verify_pack(const OpenedPack& pack) {
   Verification verification;
   auto note = [&](const std::string& where, const Result<void>& result) {
     if (result) return;
     const std::string message = result.error().message();
     verification.errors.push_back(where.empty() ? message : where + ": " + message);
   };
-  note("", verify_json(pack));
-  for (size_t i = 0; i < pack.directory().streams.size(); i++)
-    note("stream " + std::to_string(i) + " (" + to_text(pack.directory().streams[i].kind) + ")",
-         verify_stream(pack, i, verification.blocks));
-  note("", pack.verify_id());
-  Report report;
-  auto document = unpack_document(pack, MeshLevel{}, report);
-  if (!document) note("glTF", fail(document.error()));
+  const PackReader& reader = pack.reader();
+  note("JSON", verify_json(pack));
+  for (size_t i = 0; i < reader.directory().streams.size(); i++)
+    note("stream " + std::to_string(i) + " (" + to_text(reader.directory().streams[i].kind) + ")",
+         verify_stream(reader, i, verification.blocks));
+  note("", reader.verify_id());
+  if (verification.errors.empty()) note("scene", verify_scene(pack));
   return verification;
 }
 

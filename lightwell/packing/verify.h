@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lightwell/pack/reader.h"
+#include "lightwell/packing/opened_pack.h"
 
 namespace lightwell {
 
@@ -13,8 +13,9 @@ struct Verification {
   std::vector<std::string> errors;  ///< none: the pack is right
 };
 
-/// Reads every block of a pack, checks and decodes it, and compares with what the directory, the block tables and the
-/// JSON say of it.
-Verification verify_pack(const PackReader& pack);
+/// Reads every block of a pack, checks and decodes it, compares with what the directory, the block tables and the JSON
+/// say of it, and imports the scene. A pack without errors can be shown, rendered and exported by every program here,
+/// and a glTF loader that follows the JSON sees what the streams refine.
+Verification verify_pack(const OpenedPack& pack);
 
 }  // namespace lightwell

@@ -1,118 +1,132 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/verify_json.h"
 
-#include <algorithm>
-#include <limits>
+#include <map>
 
 #include "lightwell/light/stream.h"
-#include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
-#include "lightwell/packing/unpack.h"
+#include "lightwell/packing/verify_primitive.h"
+#include "lightwell/scene/import_gltf_material.h"
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {
 namespace {
 
-// Numbers of JSON are doubles that came from floats.
-bool says(const Json& object, const char* key, double value) {
-  const Json& said = member(object, key);
-  return said.is_number() && static_cast<float>(said.get<double>()) == static_cast<float>(value);
+const StreamEntry& entry_of(const OpenedPack& pack, uint32_t stream) {
+  return pack.reader().directory().streams[stream];
 }
 
-bool says(const Json& object, const char* key, const Vec3f& value) {
-  const Json& said = member(object, key);
-  if (!said.is_array() || said.size() != 3) return false;
-  for (size_t i = 0; i < 3; i++)
-    if (!said[i].is_number() || static_cast<float>(said[i].get<double>()) != value[static_cast<int>(i)]) return false;
-  return true;
+tl::unexpected<Error> differs(const char* extension, const std::string& what) {
+  return fail(extension, what + " differs from what the streams say");
 }
 
-tl::unexpected<Error> differs(const std::string& what) {
-  return fail("JSON", what + " differs from what the streams say");
-}
-
-Result<void> verify_identity(const Json& json, const Directory& directory) {
-  const Json& identity = extension(json, "LIGHTWELL_streams");
-  if (!says(identity, "version", format_version)) return differs("the version in LIGHTWELL_streams");
-  if (text(identity, "id") != to_text(directory.id)) return differs("the id in LIGHTWELL_streams");
+Result<void> verify_identity(const OpenedPack& pack) {
+  const PackIdentity& identity = pack.identity();
+  if (identity.version != format_version) return differs(streams_extension, "the version");
+  if (identity.id != to_text(pack.reader().directory().id)) return differs(streams_extension, "the id");
   return {};
 }
 
-Result<void> verify_grid(const Json& grid, const StreamEntry& entry) {
-  LW_TRY(layout, LightLayout::read(entry.parameters));
-  const GridShape& shape = layout.shape;
-  if (!says(grid, "min", shape.lo) || !says(grid, "cell", shape.cell) ||
-      !says(grid, "nodes", shape.nodes.cast<float>()) || !says(grid, "normalOffset", layout.normal_offset) ||
-      whole_number(member(grid, "codec")) != entry.codec)
-    return differs("LIGHTWELL_light_grids: a grid");
+// All that the BIN chunk holds is the one buffer, as it stands in the file: what streams say of places in it holds for
+// whoever reads the document.
+Result<void> verify_plain_form(const OpenedPack& pack) {
+  const Json& buffers = member(pack.json(), "buffers");
+  if (buffers.size() > 1) return fail("buffers", "are more than one");
+  for (const Json& buffer : buffers) {
+    constexpr size_t most_padding = 3;
+    const int64_t length = whole_number(member(buffer, "byteLength"));
+    const auto held = static_cast<int64_t>(pack.bin().size());
+    if (!member(buffer, "uri").is_null() || length > held || length + static_cast<int64_t>(most_padding) < held)
+      return fail("buffers[0]", "is not the BIN chunk");
+  }
+  const Json& views = member(pack.json(), "bufferViews");
+  for (size_t i = 0; i < views.size(); i++)
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+      if (!extension(element(views, i), name).is_null()) return fail(element_name("bufferViews", i), "is compressed");
   return {};
 }
 
-// A bound of the input holds for what is decoded but for the rounding to the lattice. One that is missing holds for
-// nothing.
-bool holds(const Json& bounds, const BaseArrays& base, float step) {
-  const Vec3d none = Vec3d::filled(std::numeric_limits<double>::quiet_NaN());
-  const Vec3f lo = numbers<3>(bounds, "min", none).cast<float>() - Vec3f::filled(step);
-  const Vec3f hi = numbers<3>(bounds, "max", none).cast<float>() + Vec3f::filled(step);
-  const auto inside = [&](const Vec3f& p) {
-    for (int i = 0; i < 3; i++)
-      if (!(p[i] >= lo[i] && p[i] <= hi[i])) return false;
-    return true;
-  };
-  return std::all_of(base.positions.begin(), base.positions.end(), inside);
-}
-
-Result<void> verify_primitive(const Json& primitive, const StreamEntry& entry, Bytes bin) {
-  ByteReader parameters(entry.parameters);
-  LW_TRY(layout, MeshLayout::read(parameters));
-  LW_TRY(places, BasePlaces::read(parameters));
-  LW_TRY(base, BaseArrays::read(layout, places, bin));
-  if (!says(primitive, "vertices", layout.vertices) || !says(primitive, "faces", layout.faces) ||
-      !says(primitive, "error", layout.base_error) ||
-      !holds(member(primitive, "bounds"), base, layout.positions.step()))
-    return differs("LIGHTWELL_progressive_mesh: a primitive");
+Result<void> verify_grids(const OpenedPack& pack) {
+  for (const GridDescription& grid : pack.grids()) {
+    const StreamEntry& entry = entry_of(pack, grid.stream);
+    LW_TRY(layout, LightLayout::read(entry.parameters));
+    if (grid.shape.lo != layout.shape.lo || grid.shape.cell != layout.shape.cell ||
+        grid.shape.nodes != layout.shape.nodes || grid.normal_offset != layout.normal_offset ||
+        grid.codec != entry.codec)
+      return differs(grids_extension, "a grid");
+  }
   return {};
 }
 
-Result<void> verify_texture(const Json& texture, const StreamEntry& entry) {
-  LW_TRY(parameters, decode_texture_parameters(entry.parameters));
-  if (!says(texture, "width", parameters.width) || !says(texture, "height", parameters.height) ||
-      text(texture, "mimeType") != mime_type(parameters.format))
-    return differs("LIGHTWELL_progressive_texture: a texture");
+// Light and meshes that no element names would never be shown by who reads the JSON; what two elements name would be
+// shown differently by whom streams lead to one. An image may belong to no texture, or to several.
+Result<void> verify_named_once(const OpenedPack& pack) {
+  std::map<uint32_t, int> names;
+  for (const GridDescription& grid : pack.grids()) names[grid.stream]++;
+  for (const RefinedPrimitive& refined : pack.primitives()) names[refined.stream]++;
+  const auto& streams = pack.reader().directory().streams;
+  for (uint32_t i = 0; i < streams.size(); i++)
+    if (streams[i].kind != StreamKind::texture && names[i] != 1)
+      return fail("stream " + std::to_string(i), "is named by " + std::to_string(names[i]) + " elements of the JSON");
   return {};
 }
 
-// Calls verify(object, entry) when the object is there, with the stream that it names.
-template <typename Verify>
-Result<void> verify_named(const Directory& directory, const Json& object, StreamKind kind, const Verify& verify) {
-  if (!object.is_object()) return {};
-  const int stream = index_of(object, "stream");
-  if (stream < 0 || static_cast<size_t>(stream) >= directory.streams.size() ||
-      directory.streams[static_cast<size_t>(stream)].kind != kind)
-    return fail("JSON", "names a " + std::string(to_text(kind)) + " stream that there is not");
-  return verify(object, directory.streams[static_cast<size_t>(stream)]);
+Result<void> verify_textures(const OpenedPack& pack) {
+  const Json& textures = member(pack.json(), "textures");
+  std::map<uint32_t, uint32_t> image_of_stream;
+  std::map<int, size_t> refined_of_image;
+  for (const RefinedTexture& refined : pack.textures()) {
+    const std::string name = element_name("textures", refined.texture);
+    LW_TRY(parameters, decode_texture_parameters(entry_of(pack, refined.stream).parameters));
+    if (refined.width != parameters.width || refined.height != parameters.height ||
+        refined.format != parameters.format)
+      return differs(texture_extension, name);
+    const int image = image_of(element(textures, refined.texture));
+    if (image != static_cast<int>(refined.source) || refined.source >= member(pack.json(), "images").size())
+      return fail(name, "its source is not the image that the stream brings");
+    if (!image_of_stream.emplace(refined.stream, refined.source).second &&
+        image_of_stream[refined.stream] != refined.source)
+      return fail(name, "stream " + std::to_string(refined.stream) + " brings another image");
+    refined_of_image[image]++;
+  }
+  if (image_of_stream.size() != refined_of_image.size())
+    return fail(texture_extension, "two streams bring one image");
+  // Of an image all textures are refined, or none.
+  for (size_t i = 0; i < textures.size(); i++)
+    if (refined_of_image.contains(image_of(textures[i])) && extension(textures[i], texture_extension).is_null())
+      return fail(element_name("textures", i), "shows an image that a stream brings, but does not say so");
+  return {};
+}
+
+Result<void> verify_lamps(const OpenedPack& pack) {
+  const Json& nodes = member(pack.json(), "nodes");
+  const Json& meshes = member(pack.json(), "meshes");
+  for (const ClientLamp& lamp : pack.lamps()) {
+    if (lamp.node < 0 && lamp.primitive < 0) continue;
+    const Json& node = element(nodes, static_cast<size_t>(lamp.node));
+    if (lamp.node < 0 || node.is_null()) return fail("LIGHTWELL_lamps", "a lamp names a node that there is not");
+    if (lamp.primitive < 0) continue;
+    const Json& mesh = element(meshes, static_cast<size_t>(index_of(node, "mesh")));
+    if (element(member(mesh, "primitives"), static_cast<size_t>(lamp.primitive)).is_null())
+      return fail("LIGHTWELL_lamps", "a lamp names a primitive that there is not");
+  }
+  return {};
 }
 
 }  // namespace
 
-Result<void> verify_json(const PackReader& pack) {
-  const GlbChunks chunks = glb_chunks(pack.opening());
-  LW_CHECK(check_self_contained({reinterpret_cast<const char*>(chunks.json.data()), chunks.json.size()}));
-  LW_TRY(json, pack_json(pack));
-  const Directory& directory = pack.directory();
-  LW_CHECK(verify_identity(json, directory));
-  for (const Json& grid : member(extension(json, "LIGHTWELL_light_grids"), "grids"))
-    LW_CHECK(verify_named(directory, grid, StreamKind::light, verify_grid));
-  for (const Json& mesh : member(json, "meshes"))
-    for (const Json& primitive : member(mesh, "primitives"))
-      LW_CHECK(verify_named(
-          directory, extension(primitive, "LIGHTWELL_progressive_mesh"), StreamKind::mesh,
-          [&](const Json& said, const StreamEntry& entry) { return verify_primitive(said, entry, chunks.bin); }));
-  for (const Json& texture : member(json, "textures"))
-    LW_CHECK(verify_named(directory, extension(texture, "LIGHTWELL_progressive_texture"), StreamKind::texture,
-                          verify_texture));
-  return {};
+Result<void> verify_json(const OpenedPack& pack) {
+  const Bytes text = glb_chunks(pack.reader().opening()).json;
+  LW_CHECK(check_self_contained({reinterpret_cast<const char*>(text.data()), text.size()}));
+  LW_CHECK(verify_identity(pack));
+  LW_CHECK(verify_plain_form(pack));
+  LW_CHECK(verify_grids(pack));
+  LW_CHECK(verify_named_once(pack));
+  for (const RefinedPrimitive& refined : pack.primitives())
+    LW_CHECK(verify_primitive(pack, refined));
+  LW_CHECK(verify_textures(pack));
+  return verify_lamps(pack);
 }
 
 }  // namespace lightwell

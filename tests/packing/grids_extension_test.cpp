@@ -55,7 +55,7 @@ TEST(GridsExtension, ReadsWhatItWrites) {
 // What is read can be written and is read alike, whatever was changed.
 TEST(GridsExtension, ReadsAnyJsonAsGridsOrAnError) {
   int refused = 0;
-  for (uint64_t i = 0; i < 3000; i++) {
+  for (uint64_t i = 0; i < 1000; i++) {
     Random random(22, i);
     Json json = pack_of({any_grid(random), any_grid(random)});
     for (uint32_t changes = 1 + random.below(3); changes > 0; changes--) spoil(json, random);
@@ -69,7 +69,7 @@ TEST(GridsExtension, ReadsAnyJsonAsGridsOrAnError) {
     ASSERT_TRUE(again) << again.error().message();
     for (size_t k = 0; k < grids->size(); k++) expect_same((*again)[k], (*grids)[k]);
   }
-  EXPECT_GT(refused, 1000);  // else the changes would not be nasty
+  EXPECT_GT(refused, 300);  // else the changes would not be nasty
 }
 
 TEST(GridsExtension, NamesWhatIsWrong) {

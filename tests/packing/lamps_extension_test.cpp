@@ -76,7 +76,7 @@ TEST(LampsExtension, ReadsWhatItWrites) {
 // What is read can be written and is read alike, whatever was changed.
 TEST(LampsExtension, ReadsAnyJsonAsLampsOrAnError) {
   int refused = 0;
-  for (uint64_t i = 0; i < 3000; i++) {
+  for (uint64_t i = 0; i < 1000; i++) {
     Random random(12, i);
     Json json = pack_of({any_lamp(random), any_lamp(random)});
     for (uint32_t changes = 1 + random.below(3); changes > 0; changes--) spoil(json, random);
@@ -90,7 +90,7 @@ TEST(LampsExtension, ReadsAnyJsonAsLampsOrAnError) {
     ASSERT_TRUE(again) << again.error().message();
     for (size_t k = 0; k < lamps->size(); k++) expect_same((*again)[k], (*lamps)[k]);
   }
-  EXPECT_GT(refused, 1000);  // else the changes would not be nasty
+  EXPECT_GT(refused, 300);  // else the changes would not be nasty
 }
 
 TEST(LampsExtension, NamesWhatIsWrong) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -36,23 +35,23 @@ inline Json nasty_value(Random& random) {
   return values[random.below(static_cast<uint32_t>(values.size()))];
 }
 
-/// The places of all values in a JSON, its root left out.
-inline std::vector<Json::json_pointer> places_in(const Json& json) {
-  std::vector<Json::json_pointer> places;
-  const Json flat = json.flatten();
-  for (const auto& entry : flat.items()) {
-    Json::json_pointer place(entry.key());
-    for (; !place.empty(); place.pop_back()) places.push_back(place);
-  }
-  std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.to_string() < b.to_string(); });
-  places.erase(std::unique(places.begin(), places.end()), places.end());
-  return places;
+/// Adds the places of all values in a JSON that stands at `here`, without its own.
+inline void add_places(const Json& json, const Json::json_pointer& here, std::vector<Json::json_pointer>& places) {
+  const auto add = [&](const Json& value, const Json::json_pointer& place) {
+    places.push_back(place);
+    add_places(value, place, places);
+  };
+  if (json.is_object())
+    for (const auto& [key, value] : json.items()) add(value, here / key);
+  if (json.is_array())
+    for (size_t i = 0; i < json.size(); i++) add(json[i], here / i);
 }
 
 /// Changes a JSON at one place: takes the value away, puts another there, a little different or not at all alike, or
 /// changes places with another value.
 inline void spoil(Json& json, Random& random) {
-  const std::vector<Json::json_pointer> places = places_in(json);
+  std::vector<Json::json_pointer> places;
+  add_places(json, Json::json_pointer(), places);
   if (places.empty()) return;
   const auto any = [&] { return places[random.below(static_cast<uint32_t>(places.size()))]; };
   const Json::json_pointer place = any();

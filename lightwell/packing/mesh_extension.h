@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lightwell/base/vector.h"
+#include "lightwell/gltf/json.h"
+
+namespace lightwell {
+
+/// LIGHTWELL_progressive_mesh of docs/format.md: a stream refines a primitive.
+inline constexpr const char* mesh_extension = "LIGHTWELL_progressive_mesh";
+
+/// A primitive that a stream refines.
+struct RefinedPrimitive {
+  uint32_t stream = 0;
+  uint32_t vertices = 0, faces = 0;  ///< of the final level
+  Box3f bounds;                      ///< of the input
+  float error = 0;                   ///< of the coarsest level, in the mesh's own units
+  size_t mesh = 0, primitive = 0;    ///< where it stands: meshes[mesh].primitives[primitive]
+};
+
+/// The extension's JSON, for the primitive where it stands.
+Json to_json(const RefinedPrimitive& refined);
+
+/// Reads the extension from all primitives of a pack's JSON. Any JSON gives a list or an error that names the element.
+Result<std::vector<RefinedPrimitive>> read_refined_primitives(const Json& json);
+
+}  // namespace lightwell

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/packing/opened_pack.h"
+
+#include "lightwell/pack/opening.h"
+#include "lightwell/packing/lamps_extension.h"
+
+namespace lightwell {
+
+Result<OpenedPack> OpenedPack::open(PackReader reader) {
+  OpenedPack pack(std::move(reader));
+  LW_CHECK(pack.read_json());
+  LW_CHECK(pack.check_streams());
+  return pack;
+}
+
+Result<OpenedPack> OpenedPack::open_file(const std::string& path) {
+  LW_TRY(reader, PackReader::open_file(path));
+  auto pack = open(std::move(reader));
+  if (!pack) return fail(in_file(pack.error(), path));
+  return pack;
+}
+
+Bytes OpenedPack::bin() const { return glb_chunks(reader_.opening()).bin; }
+
+Result<void> OpenedPack::read_json() {
+  const Bytes opening = reader_.opening(), text = glb_chunks(opening).json;
+  LW_TRY(json, parse_json(text, static_cast<uint64_t>(text.data() - opening.data())));
+  json_ = std::move(json);
+  LW_TRY(identity, read_identity(json_));
+  LW_TRY(grids, read_grids(json_));
+  LW_TRY(lamps, read_lamps(json_));
+  LW_TRY(primitives, read_refined_primitives(json_));
+  LW_TRY(textures, read_refined_textures(json_));
+  identity_ = std::move(identity);
+  grids_ = std::move(grids);
+  lamps_ = std::move(lamps);
+  primitives_ = std::move(primitives);
+  textures_ = std::move(textures);
+  return {};
+}
+
+Result<void> OpenedPack::check_streams() const {
+  const auto& streams = reader_.directory().streams;
+  const auto check = [&](const auto& elements, StreamKind kind, const char* extension) -> Result<void> {
+    for (const auto& named : elements)
+      if (named.stream >= streams.size() || streams[named.stream].kind != kind)
+        return fail(extension, "stream " + std::to_string(named.stream) + " is no " + to_text(kind) + " stream");
+    return {};
+  };
+  LW_CHECK(check(grids_, StreamKind::light, grids_extension));
+  LW_CHECK(check(primitives_, StreamKind::mesh, mesh_extension));
+  return check(textures_, StreamKind::texture, texture_extension);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/packing/verify_scene.h"
+
+#include "lightwell/mesh/stream.h"
+#include "lightwell/packing/unpack.h"
+#include "lightwell/scene/import_gltf.h"
+
+namespace lightwell {
+namespace {
+
+Result<Scene> scene_at(const OpenedPack& pack, const MeshLevel& level) {
+  Report report;
+  LW_TRY(document, unpack_document(pack, level, report));
+  return scene_from_document(std::move(document), "", report);
+}
+
+// The bounds of the input hold for what is decoded but for the rounding to the lattice.
+bool holds(const Box3f& bounds, const Mesh& mesh, float step) {
+  for (const Vec3f& p : mesh.positions)
+    for (int i = 0; i < 3; i++)
+      if (!(p[i] >= bounds.lo[i] - step && p[i] <= bounds.hi[i] + step)) return false;
+  return true;
+}
+
+// Primitives that no node shows are not imported, and are not looked at.
+Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
+  for (const RefinedPrimitive& refined : pack.primitives())
+    for (const Primitive& primitive : scene.primitives) {
+      if (primitive.source_mesh != static_cast<int>(refined.mesh) ||
+          primitive.source_primitive != static_cast<int>(refined.primitive))
+        continue;
+      ByteReader parameters(pack.reader().directory().streams[refined.stream].parameters);
+      LW_TRY(layout, MeshLayout::read(parameters));
+      if (!holds(refined.bounds, primitive.mesh, layout.positions.step()))
+        return fail(element_name("meshes", refined.mesh) + "." + element_name("primitives", refined.primitive),
+                    "the bounds in " + std::string(mesh_extension) + " do not hold its final level");
+    }
+  return {};
+}
+
+Result<void> verify_images(const OpenedPack& pack, const Scene& scene) {
+  for (const RefinedTexture& refined : pack.textures()) {
+    const Image& image = scene.images[refined.source];
+    LW_TRY(file, read_image(scene.document, static_cast<int>(refined.source)));
+    if (image.width != static_cast<int>(refined.width) || image.height != static_cast<int>(refined.height) ||
+        image_format(file) != refined.format)
+      return fail(element_name("images", refined.source), "is not of the size and format that its stream states");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> verify_scene(const OpenedPack& pack) {
+  LW_CHECK(scene_at(pack, {.share = 0}));
+  LW_TRY(scene, scene_at(pack, {}));
+  LW_CHECK(verify_bounds(pack, scene));
+  return verify_images(pack, scene);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "lightwell/base/random.h"
+#include "lightwell/pack/opening.h"
+#include "lightwell/pack/writer.h"
+#include "lightwell/packing/opened_pack.h"
+#include "lightwell/packing/pack_scene.h"
+#include "lightwell/scene/import_gltf.h"
+#include "lightwell/texture/image_file.h"
+
+namespace lightwell {
+
+/// A grid whose light differs from node to node.
+inline LightGrid some_light(const Box3f& bounds) {
+  LightGrid grid;
+  grid.shape = GridShape::over(bounds, 9);
+  for (size_t i = 0; i < grid.shape.count(); i++) {
+    Moments moments;
+    for (size_t k = 0; k < 6; k++) moments.m[k] = Vec3f{{1, 2, 3}} * (1 + Random(1, i).uniform());
+    grid.moments.push_back(moments);
+  }
+  grid.valid.assign(grid.shape.count(), 1);
+  return grid;
+}
+
+struct Packed {
+  Scene scene;
+  std::vector<uint8_t> file;
+  PackStatistics statistics;
+  std::vector<std::string> warnings;
+};
+
+/// The pack of a document under that light.
+inline Packed pack(Document document, const std::vector<ClientLamp>& lamps = {}) {
+  Packed packed;
+  Report report;
+  packed.scene = scene_from_document(std::move(document), "test", report).value();
+  const LightGrid grid = some_light(packed.scene.bounds());
+  PackLight light;
+  light.grids = {{.grid = &grid}};
+  light.lamps = lamps;
+  light.exposure = 1.5f;
+  Progress progress;
+  auto file = make_pack(packed.scene, light, {}, progress, report, packed.statistics);
+  EXPECT_TRUE(file) << file.error().message();
+  if (file) packed.file = std::move(*file);
+  packed.warnings = report.warnings;
+  return packed;
+}
+
+/// `file` must outlive what is opened.
+inline Result<OpenedPack> try_open(const std::vector<uint8_t>& file) {
+  LW_TRY(reader, PackReader::open(
+                     [&file](uint64_t first, uint64_t length) -> Result<std::vector<uint8_t>> {
+                       if (first + length > file.size()) return fail("", "beyond the end");
+                       return std::vector<uint8_t>(file.begin() + static_cast<ptrdiff_t>(first),
+                                                   file.begin() + static_cast<ptrdiff_t>(first + length));
+                     },
+                     file.size()));
+  return OpenedPack::open(std::move(reader));
+}
+
+inline OpenedPack open(const std::vector<uint8_t>& file) { return try_open(file).value(); }
+
+/// The streams of a pack, to be written again.
+inline std::vector<PackStream> streams_of(const PackReader& reader) {
+  std::vector<PackStream> streams;
+  for (size_t i = 0; i < reader.directory().streams.size(); i++) {
+    const StreamEntry& entry = reader.directory().streams[i];
+    streams.push_back({entry.kind, entry.codec, entry.error, entry.parameters, {}});
+    for (uint32_t block = 0; block < entry.blocks; block++)
+      streams[i].blocks.push_back(
+          {reader.block(i, block).value(), reader.rows(i)[block].adds, reader.rows(i)[block].error});
+  }
+  return streams;
+}
+
+/// A pack of that JSON and those streams with all checks right, and the opening's BIN as it was. The id covers neither
+/// JSON nor parameters, so it stays.
+inline std::vector<uint8_t> rewrite(const OpenedPack& pack, const Json& json, std::vector<PackStream> streams) {
+  return PackWriter::create({pack.bin().begin(), pack.bin().end()}, std::move(streams))->finish(json.dump()).value();
+}
+
+/// A bumpy sheet of n x n quads with texture coordinates and colours.
+inline Mesh painted_sheet(uint32_t n) {
+  Mesh mesh;
+  Random random(7, 0);
+  for (uint32_t j = 0; j <= n; j++)
+    for (uint32_t i = 0; i <= n; i++) {
+      const float u = static_cast<float>(i) / static_cast<float>(n), v = static_cast<float>(j) / static_cast<float>(n);
+      mesh.positions.push_back({{u, v, 0.1f * random.uniform()}});
+      mesh.texcoords[0].push_back({{u, 1 - v}});
+      mesh.colors.push_back({{u, v, random.uniform(), 1}});
+    }
+  for (uint32_t j = 0; j < n; j++)
+    for (uint32_t i = 0; i < n; i++) {
+      const uint32_t k = j * (n + 1) + i;
+      mesh.faces.push_back({k, k + 1, k + n + 2});
+      mesh.faces.push_back({k, k + n + 2, k + n + 1});
+    }
+  mesh.normals = smooth_normals(mesh);
+  return mesh;
+}
+
+/// The sheet with a material, shown by a node. One of 20 x 20 quads stays whole in the opening, one of 50 x 50 is
+/// streamed.
+inline Document sheet_document(uint32_t n = 20) {
+  Document document;
+  DocumentBuilder builder(document);
+  Json primitive = builder.primitive(painted_sheet(n));
+  primitive["material"] = builder.add("materials", Json::object());
+  builder.add("meshes", {{"primitives", Json::array({primitive})}});
+  document.json["nodes"] = {{{"mesh", 0}}};
+  builder.add("scenes", {{"nodes", {0}}});
+  return document;
+}
+
+/// Gives the first material of a document an image that no file makes small: noise. Returns its file.
+inline std::vector<uint8_t> add_noise(Document& document, int side) {
+  Image noise{side, side, 3, {}};
+  Random random(5, 0);
+  for (int i = 0; i < side * side * 3; i++) noise.pixels.push_back(static_cast<uint8_t>(random.below(256)));
+  std::vector<uint8_t> file = write_png(noise);
+  const int view = DocumentBuilder(document).buffer_view(file);
+  document.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+  document.json["textures"] = {{{"source", 0}}};
+  document.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  return file;
+}
+
+}  // namespace lightwell
