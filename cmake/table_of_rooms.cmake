@@ -3,7 +3,7 @@
 # The rooms and their arrows, once. docs/architecture.md says what each room knows; the test
 # "arrows" fails when an include runs against this table.
 lightwell_room(base LIBRARIES Threads::Threads lightwell_expected ZLIB::ZLIB BAKER_ONLY parallel_threads.cpp file.cpp)
-lightwell_room(mesh DEPENDS base BAKER_ONLY quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
+lightwell_room(mesh DEPENDS base BAKER_ONLY connected_faces.cpp quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
 lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp
                BAKER_ONLY image_file.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
 lightwell_room(light DEPENDS base BAKER_ONLY stream_encode.cpp)
@@ -12,7 +12,7 @@ lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_
 lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
 lightwell_room(trace DEPENDS scene mesh texture base LIBRARIES embree)
 lightwell_room(render DEPENDS trace light scene texture base LIBRARIES tinyexr::tinyexr)
-lightwell_room(bake DEPENDS trace light scene base)
+lightwell_room(bake DEPENDS trace light scene mesh base)
 lightwell_room(packing DEPENDS pack light mesh texture gltf scene base)
 lightwell_room(client DEPENDS pack light mesh texture base)
 lightwell_room(transport DEPENDS client base LIBRARIES Boost::headers)

@@ -136,13 +136,13 @@ std::optional<ClientLamp> describe_surface(const TraceScene& scene, const Lumina
   lamp->two_sided = luminaire.double_sided && lamp->kind == ClientLamp::Kind::rectangle;
   // Of what a double-sided surface sends out, each side has half; nobody sees the inside of a sphere.
   lamp->radiance = luminaire.power / (pi * luminaire.area * (luminaire.double_sided ? 2.0f : 1.0f));
-  lamp->node = instance.node;
-  lamp->primitive = primitive.source_primitive;
+  lamp->luminaire = luminaire.id;
   return lamp;
 }
 
-ClientLamp describe_lamp(const Lamp& source) {
+ClientLamp describe_lamp(const Lamp& source, const LuminaireId& id) {
   ClientLamp lamp;
+  lamp.luminaire = id;
   switch (source.kind) {
     case Lamp::Kind::point: lamp.kind = ClientLamp::Kind::point; break;
     case Lamp::Kind::spot: lamp.kind = ClientLamp::Kind::spot; break;
@@ -155,13 +155,13 @@ ClientLamp describe_lamp(const Lamp& source) {
   lamp.range = source.range;
   lamp.inner_cone = source.inner_cone;
   lamp.outer_cone = source.outer_cone;
-  lamp.node = source.node;
   return lamp;
 }
 
 std::optional<ClientLamp> describe(const TraceScene& scene, const Luminaire& luminaire) {
   switch (luminaire.kind()) {
-    case Luminaire::Kind::lamp: return describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)]);
+    case Luminaire::Kind::lamp:
+      return describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)], luminaire.id);
     case Luminaire::Kind::surface: return describe_surface(scene, luminaire);
     case Luminaire::Kind::environment: break;
   }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "lightwell/light/client_lamp.h"
+#include "lightwell/scene/client_lamp.h"
 #include "lightwell/trace/world.h"
 
 namespace lightwell {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/solids.h"
 
-#include "lightwell/trace/connected_faces.h"
+#include "lightwell/mesh/connected_faces.h"
 #include "lightwell/trace/sampling.h"
 
 namespace lightwell {

@@ -15,9 +15,9 @@ LuminaireSet contained_in_grids(const OpenedScene& scene, const World& world, bo
 /// Fails when the scene of a pack was given an environment that its grids lack: bounced light would be missing.
 Result<void> check_environment(const OpenedScene& scene);
 
-/// The baked light that a scene stands for: the grids of its pack at a level, or one grid baked as its options say, with the
-/// direct light of the `contained` luminaires.
-Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world, const LuminaireSet& contained,
-                            Progress& progress, const LightLevel& level = {});
+/// The baked light that a scene stands for: the grids of its pack at a level, or one grid baked as its options say,
+/// with the direct light of the `contained` luminaires.
+Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,
+                            const LuminaireSet& contained, Progress& progress, const LightLevel& level = {});
 
 }  // namespace lightwell

@@ -52,8 +52,8 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   const std::string& path = options.path;
   const bool pack = is_pack_file(path);
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
-  auto opened = pack ? open_pack(path, !options.environment.empty(), level, report)
-                     : open_other(path, options.import, report);
+  auto opened =
+      pack ? open_pack(path, !options.environment.empty(), level, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
   if (!options.environment.empty()) {
     LW_TRY(surroundings, read_environment(options.environment));

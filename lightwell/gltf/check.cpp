@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/gltf/check.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
@@ -238,6 +239,28 @@ Result<void> check_forest(const Json& json) {
   return {};
 }
 
+/// True when everything named `extensions` in a part of the document, but for extras, is an object.
+bool has_sound_extensions(const Json& part) {
+  if (part.is_array()) return std::all_of(part.begin(), part.end(), has_sound_extensions);
+  if (!part.is_object()) return true;
+  for (const auto& [key, value] : part.items())
+    if (key != "extras" && (!has_sound_extensions(value) || (key == "extensions" && !value.is_object()))) return false;
+  return true;
+}
+
+/// Whoever writes a document again edits its lists of extensions.
+Result<void> check_extensions(const Json& json) {
+  for (const auto& [key, value] : json.items()) {
+    if (key == "extras") continue;
+    if (!value.is_array() && (!has_sound_extensions(value) || (key == "extensions" && !value.is_object())))
+      return fail(key, "is, or has in it, extensions that are no object");
+    for (size_t i = 0; value.is_array() && i < value.size(); i++)
+      if (!has_sound_extensions(value[i]))
+        return fail(element_name(key.c_str(), i), "it, or something in it, has extensions that are no object");
+  }
+  return {};
+}
+
 bool is_version_2(const std::string& version) { return version.starts_with("2.") && version.size() >= 3; }
 
 }  // namespace
@@ -257,6 +280,7 @@ Result<void> check_version(const Json& json) {
 
 Result<void> check_document(const Json& json, Report& report) {
   LW_CHECK(check_arrays(json));
+  LW_CHECK(check_extensions(json));
   LW_CHECK(check_references(json));
   LW_CHECK(check_each(json, "buffers", check_buffer, report));
   LW_CHECK(check_each(json, "bufferViews", check_buffer_view, report));

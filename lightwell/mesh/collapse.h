@@ -47,8 +47,8 @@ struct CollapseOrder {
 ///
 /// The cost is the quadric error metric of M. Garland and P. Heckbert ("Surface simplification using quadric error
 /// metrics", SIGGRAPH 1997). Differs from the paper: a point goes onto a neighbour and nothing moves (half-edge
-/// collapse), and instead of the cheapest collapse each time there are rounds of independent ones, as in the hierarchies
-/// of D. Dobkin and D. Kirkpatrick (1985).
+/// collapse), and instead of the cheapest collapse each time there are rounds of independent ones, as in the
+/// hierarchies of D. Dobkin and D. Kirkpatrick (1985).
 Result<CollapseOrder> collapse_order(const QuantizedMesh& mesh, const Points& points, uint32_t vertices,
                                      Progress& progress);
 

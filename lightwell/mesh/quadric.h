@@ -6,8 +6,8 @@
 namespace lightwell {
 
 /// The weighted sum of squared distances to planes as a function of the offset from the point that owns it (M. Garland,
-/// P. Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997, section 5). Differs from the paper:
-/// each quadric has its origin at its own point, where it is accurate in single precision.
+/// P. Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997, section 5). Differs from the
+/// paper: each quadric has its origin at its own point, where it is accurate in single precision.
 class Quadric {
  public:
   /// Adds a plane through the owner.

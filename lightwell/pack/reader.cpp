@@ -54,10 +54,10 @@ class OpenFile {
   Result<std::vector<uint8_t>> read(uint64_t first, uint64_t count) const {
     std::vector<uint8_t> bytes(count);
     for (size_t done = 0; done < bytes.size();) {
-      const ssize_t got = ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(first + done));
+      const ssize_t got =
+          ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(first + done));
       if (got < 0 && errno == EINTR) continue;
-      if (got <= 0)
-        return fail({"", std::to_string(count) + " bytes", "cannot be read", ErrorKind::io, first});
+      if (got <= 0) return fail({"", std::to_string(count) + " bytes", "cannot be read", ErrorKind::io, first});
       done += static_cast<size_t>(got);
     }
     return bytes;

@@ -33,7 +33,7 @@ std::optional<Kind> kind_of(std::string_view name) {
 // What lamps of a kind have.
 bool has_center(Kind kind) { return kind != Kind::sun; }
 bool has_normal(Kind kind) { return kind != Kind::point && kind != Kind::sphere; }
-bool has_radiance(Kind kind) { return kind == Kind::rectangle || kind == Kind::sphere; }
+bool is_surface(Kind kind) { return kind == Kind::rectangle || kind == Kind::sphere; }
 
 Json lamp_json(const ClientLamp& lamp) {
   Json json{{"kind", name_of(lamp.kind)}};
@@ -46,7 +46,7 @@ Json lamp_json(const ClientLamp& lamp) {
     if (lamp.two_sided) json["twoSided"] = true;
   }
   if (lamp.kind == Kind::sphere) json["radius"] = to_json(lamp.radius);
-  if (has_radiance(lamp.kind))
+  if (is_surface(lamp.kind))
     json["radiance"] = to_json(lamp.radiance);
   else
     json["intensity"] = to_json(lamp.intensity);
@@ -55,8 +55,12 @@ Json lamp_json(const ClientLamp& lamp) {
     json["innerConeAngle"] = to_json(lamp.inner_cone);
     json["outerConeAngle"] = to_json(lamp.outer_cone);
   }
-  if (lamp.node >= 0) json["node"] = lamp.node;
-  if (lamp.primitive >= 0) json["primitive"] = lamp.primitive;
+  if (lamp.luminaire.node >= 0) json["node"] = lamp.luminaire.node;
+  if (is_surface(lamp.kind)) {
+    if (lamp.luminaire.copy > 0) json["copy"] = lamp.luminaire.copy;
+    if (lamp.luminaire.primitive >= 0) json["primitive"] = lamp.luminaire.primitive;
+    json["vertex"] = lamp.luminaire.vertex;
+  }
   return json;
 }
 
@@ -75,15 +79,20 @@ Result<ClientLamp> read_lamp(const Json& json, const std::string& name) {
     lamp.two_sided = reader.flag("twoSided");
   }
   if (lamp.kind == Kind::sphere) lamp.radius = reader.real("radius");
-  (has_radiance(lamp.kind) ? lamp.radiance : lamp.intensity) =
-      reader.vector(has_radiance(lamp.kind) ? "radiance" : "intensity");
+  (is_surface(lamp.kind) ? lamp.radiance : lamp.intensity) =
+      reader.vector(is_surface(lamp.kind) ? "radiance" : "intensity");
   if (reader.has("range")) lamp.range = reader.real("range");
   if (lamp.kind == Kind::spot) {
     lamp.inner_cone = reader.real("innerConeAngle");
     lamp.outer_cone = reader.real("outerConeAngle");
   }
-  if (reader.has("node")) lamp.node = static_cast<int>(reader.whole("node"));
-  if (reader.has("primitive")) lamp.primitive = static_cast<int>(reader.whole("primitive"));
+  lamp.luminaire.kind = is_surface(lamp.kind) ? LuminaireId::Kind::surface : LuminaireId::Kind::lamp;
+  if (reader.has("node")) lamp.luminaire.node = static_cast<int>(reader.whole("node"));
+  if (is_surface(lamp.kind)) {
+    if (reader.has("copy")) lamp.luminaire.copy = static_cast<int>(reader.whole("copy"));
+    if (reader.has("primitive")) lamp.luminaire.primitive = static_cast<int>(reader.whole("primitive"));
+    lamp.luminaire.vertex = static_cast<uint32_t>(reader.whole("vertex"));
+  }
   if (lamp.radius < 0) reader.refuse("radius", "is negative");
   if (lamp.range < 0) reader.refuse("range", "is negative");
   return reader.finish(std::move(lamp));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lightwell/gltf/json.h"
-#include "lightwell/light/client_lamp.h"
+#include "lightwell/scene/client_lamp.h"
 
 namespace lightwell {
 

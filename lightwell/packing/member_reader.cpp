@@ -37,8 +37,7 @@ Json to_json(const Vec3i& v) { return Json::array({v[0], v[1], v[2]}); }
 
 MemberReader::MemberReader(const Json& object, std::string name) : object_(object), name_(std::move(name)) {
   if (object.is_object()) return;
-  failed_ = true;
-  error_ = {"", name_, object.is_null() ? "is missing" : "is no object"};
+  error_.emplace("", name_, object.is_null() ? "is missing" : "is no object");
 }
 
 bool MemberReader::has(const char* key) const { return object_.is_object() && object_.contains(key); }
@@ -96,9 +95,8 @@ const Json& MemberReader::object(const char* key) {
 }
 
 void MemberReader::refuse(const char* key, const std::string& reason) {
-  if (failed_) return;
-  failed_ = true;
-  error_ = {"", name_ + "." + key, has(key) ? reason : "is missing"};
+  if (error_) return;
+  error_.emplace("", name_ + "." + key, has(key) ? reason : "is missing");
 }
 
 std::string MemberReader::name_of(const char* key, size_t index) const {

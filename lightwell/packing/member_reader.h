@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -29,7 +30,7 @@ class MemberReader {
   Vec3i whole_vector(const char* key);
   uint32_t whole(const char* key);  ///< 0 to 2^31 - 1, as every index and count of a pack is
   std::string string(const char* key);
-  bool flag(const char* key);        ///< false when it is missing
+  bool flag(const char* key);  ///< false when it is missing
   const Json& array(const char* key);
   const Json& object(const char* key);
 
@@ -41,15 +42,14 @@ class MemberReader {
   /// The value that was made of the members, unless one of them was wrong.
   template <typename T>
   Result<T> finish(T value) const {
-    if (failed_) return fail(error_);
+    if (error_) return fail(*error_);
     return value;
   }
 
  private:
   const Json& object_;
   std::string name_;
-  bool failed_ = false;
-  Error error_;
+  std::optional<Error> error_;
 };
 
 }  // namespace lightwell

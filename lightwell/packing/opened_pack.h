@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "lightwell/light/client_lamp.h"
 #include "lightwell/pack/reader.h"
 #include "lightwell/packing/grids_extension.h"
 #include "lightwell/packing/mesh_extension.h"
 #include "lightwell/packing/streams_extension.h"
 #include "lightwell/packing/texture_extension.h"
+#include "lightwell/scene/client_lamp.h"
 
 namespace lightwell {
 

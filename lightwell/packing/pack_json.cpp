@@ -51,9 +51,8 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
     for (Json& texture : json["textures"]) {
       if (index_of(texture, "source") != content.images[i].image) continue;
       const TextureParameters& parameters = content.images[i].parameters;
-      texture["extensions"][texture_extension] =
-          to_json(RefinedTexture{static_cast<uint32_t>(content.image_stream(i)), parameters.width, parameters.height,
-                                 parameters.format});
+      texture["extensions"][texture_extension] = to_json(RefinedTexture{
+          static_cast<uint32_t>(content.image_stream(i)), parameters.width, parameters.height, parameters.format});
       use_extension(json, texture_extension);
     }
   json["extensions"][grids_extension] = to_json(describe(light, content));

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "lightwell/light/client_lamp.h"
 #include "lightwell/light/light_field.h"
+#include "lightwell/scene/client_lamp.h"
 
 namespace lightwell {
 

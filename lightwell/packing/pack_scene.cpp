@@ -7,6 +7,7 @@
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/self_contained.h"
 #include "lightwell/packing/pack_json.h"
+#include "lightwell/packing/pack_lamps.h"
 
 namespace lightwell {
 namespace {
@@ -154,7 +155,9 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   shrink_meshes(scene, content.meshes, document, report);
   if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
   content.images = shrink_images(scene, document);
-  add_extensions(document, scene, light, content);
+  PackLight stated = light;
+  stated.lamps = lamps_of_pack(light.lamps, scene, content.meshes);
+  add_extensions(document, scene, stated, content);
   share_buffer_views(document);
   document = single_buffer(std::move(document), report);
 

@@ -89,8 +89,7 @@ Result<void> complete_images(Document& document, const PackRefinement& refinemen
 
 // Removes the LIGHTWELL_ extensions, which would be wrong of the refined document.
 void drop_extensions(Json& json) {
-  constexpr std::array names = {streams_extension, grids_extension, lamps_extension, mesh_extension,
-                                texture_extension};
+  constexpr std::array names = {streams_extension, grids_extension, lamps_extension, mesh_extension, texture_extension};
   const auto drop = [&](Json& object) {
     if (!object.contains("extensions")) return;
     for (const char* name : names) object["extensions"].erase(name);
@@ -126,9 +125,8 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report) {
   auto document = read_document(pack.json(), pack.bin(), report);
   if (!document) return document;
-  const PackRefinement refinement{
-      [&](size_t stream) { return unpack_mesh(pack.reader(), stream, level); },
-      [&](size_t stream) { return unpack_image(pack.reader(), stream); }};
+  const PackRefinement refinement{[&](size_t stream) { return unpack_mesh(pack.reader(), stream, level); },
+                                  [&](size_t stream) { return unpack_image(pack.reader(), stream); }};
   LW_CHECK(refine_document(*document, refinement));
   return document;
 }

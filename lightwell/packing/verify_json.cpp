@@ -6,6 +6,7 @@
 #include "lightwell/light/stream.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
+#include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/verify_primitive.h"
 #include "lightwell/scene/import_gltf_material.h"
 #include "lightwell/texture/stream.h"
@@ -79,8 +80,7 @@ Result<void> verify_textures(const OpenedPack& pack) {
   for (const RefinedTexture& refined : pack.textures()) {
     const std::string name = element_name("textures", refined.texture);
     LW_TRY(parameters, decode_texture_parameters(entry_of(pack, refined.stream).parameters));
-    if (refined.width != parameters.width || refined.height != parameters.height ||
-        refined.format != parameters.format)
+    if (refined.width != parameters.width || refined.height != parameters.height || refined.format != parameters.format)
       return differs(texture_extension, name);
     const int image = image_of(element(textures, refined.texture));
     if (image != static_cast<int>(refined.source) || refined.source >= member(pack.json(), "images").size())
@@ -90,8 +90,7 @@ Result<void> verify_textures(const OpenedPack& pack) {
       return fail(name, "stream " + std::to_string(refined.stream) + " brings another image");
     refined_of_image[image]++;
   }
-  if (image_of_stream.size() != refined_of_image.size())
-    return fail(texture_extension, "two streams bring one image");
+  if (image_of_stream.size() != refined_of_image.size()) return fail(texture_extension, "two streams bring one image");
   // Of an image all textures are refined, or none.
   for (size_t i = 0; i < textures.size(); i++)
     if (refined_of_image.contains(image_of(textures[i])) && extension(textures[i], texture_extension).is_null())
@@ -103,13 +102,18 @@ Result<void> verify_lamps(const OpenedPack& pack) {
   const Json& nodes = member(pack.json(), "nodes");
   const Json& meshes = member(pack.json(), "meshes");
   for (const ClientLamp& lamp : pack.lamps()) {
-    if (lamp.node < 0 && lamp.primitive < 0) continue;
-    const Json& node = element(nodes, static_cast<size_t>(lamp.node));
-    if (lamp.node < 0 || node.is_null()) return fail("LIGHTWELL_lamps", "a lamp names a node that there is not");
-    if (lamp.primitive < 0) continue;
+    const LuminaireId& id = lamp.luminaire;
+    if (id.node < 0 && id.primitive < 0) continue;
+    const Json& node = element(nodes, static_cast<size_t>(id.node));
+    if (id.node < 0 || node.is_null()) return fail(lamps_extension, "a lamp names a node that there is not");
+    if (id.primitive < 0) continue;
     const Json& mesh = element(meshes, static_cast<size_t>(index_of(node, "mesh")));
-    if (element(member(mesh, "primitives"), static_cast<size_t>(lamp.primitive)).is_null())
-      return fail("LIGHTWELL_lamps", "a lamp names a primitive that there is not");
+    const Json& primitive = element(member(mesh, "primitives"), static_cast<size_t>(id.primitive));
+    if (primitive.is_null()) return fail(lamps_extension, "a lamp names a primitive that there is not");
+    const int positions = index_of(member(primitive, "attributes"), "POSITION");
+    const Json& accessor = element(member(pack.json(), "accessors"), static_cast<size_t>(positions));
+    if (positions < 0 || id.vertex >= number(accessor, "count", 0))
+      return fail(lamps_extension, "a lamp names a vertex that the opening does not have");
   }
   return {};
 }
@@ -123,8 +127,7 @@ Result<void> verify_json(const OpenedPack& pack) {
   LW_CHECK(verify_plain_form(pack));
   LW_CHECK(verify_grids(pack));
   LW_CHECK(verify_named_once(pack));
-  for (const RefinedPrimitive& refined : pack.primitives())
-    LW_CHECK(verify_primitive(pack, refined));
+  for (const RefinedPrimitive& refined : pack.primitives()) LW_CHECK(verify_primitive(pack, refined));
   LW_CHECK(verify_textures(pack));
   return verify_lamps(pack);
 }

@@ -96,7 +96,8 @@ Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& re
   ByteReader parameters(pack.reader().directory().streams[refined.stream].parameters);
   LW_TRY(layout, MeshLayout::read(parameters));
   LW_TRY(places, BasePlaces::read(parameters));
-  if (parameters.remaining() > 0) return fail("stream " + std::to_string(refined.stream), "its parameters are too long");
+  if (parameters.remaining() > 0)
+    return fail("stream " + std::to_string(refined.stream), "its parameters are too long");
   LW_TRY(base, BaseArrays::read(layout, places, pack.bin()));
   if (refined.vertices != layout.vertices || refined.faces != layout.faces || refined.error != layout.base_error)
     return fail(name + "." + mesh_extension, "differs from what its stream says");

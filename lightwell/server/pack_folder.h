@@ -23,7 +23,7 @@ struct ServedPack {
 /// begin as packs do and, when they are links, lead to a file below the folder.
 ///
 /// Whether a file is a pack is remembered until its place, length or time of change is another one: a listing opens new
-/// files only, and needs a system call for each of the others (3 ms for 2,000). For one thread at a time.
+/// files only, and needs a system call for each of the others. For one thread at a time.
 class PackFolder {
  public:
   explicit PackFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}

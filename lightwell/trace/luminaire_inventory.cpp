@@ -4,7 +4,7 @@
 #include <map>
 #include <tuple>
 
-#include "lightwell/trace/connected_faces.h"
+#include "lightwell/mesh/connected_faces.h"
 #include "lightwell/trace/lit_texels.h"
 #include "lightwell/trace/punctual_light.h"
 

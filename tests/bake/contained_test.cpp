@@ -8,11 +8,9 @@
 namespace lightwell {
 namespace {
 
-ClientLamp lamp_of(ClientLamp::Kind kind, const Vec3f& center, int node) {
+ClientLamp lamp_of(const LuminaireId& id) {
   ClientLamp lamp;
-  lamp.kind = kind;
-  lamp.center = center;
-  lamp.node = node;
+  lamp.luminaire = id;
   return lamp;
 }
 
@@ -29,21 +27,22 @@ Scene scene_of_lamps() {
   return scene;
 }
 
-// Luminaires are counted lamps first, then surfaces, then the environment. The panel's centre is that of a finer level.
+// Luminaires are counted lamps first, then surfaces, then the environment.
 TEST(ContainedLuminaires, AreAllButTheClientsLamps) {
+  using Kind = LuminaireId::Kind;
   const Scene scene = scene_of_lamps();
   const auto world = world_of(scene);
-  const ClientLamp panel = lamp_of(ClientLamp::Kind::rectangle, {{3.6f, 3, 0.4f}}, 4);
-  const ClientLamp point = lamp_of(ClientLamp::Kind::point, {{1, 1, 1}}, 7);
-  const ClientLamp other = lamp_of(ClientLamp::Kind::point, {}, 9);
+  const ClientLamp panel = lamp_of({Kind::surface, 4, 0, -1, 4});
+  const ClientLamp point = lamp_of({Kind::lamp, 7});
   const auto contained = [&](const std::vector<ClientLamp>& lamps, bool environment) {
     return contained_luminaires(lamps, {.environment = environment}, *world);
   };
   EXPECT_EQ(contained({panel}, false), luminaires({1, 1, 0, 1, 0}));
   EXPECT_EQ(contained({panel, point}, true), luminaires({0, 1, 0, 1, 1}));
-  // Two lamps at one place are two luminaires; one of another node is none of these.
-  EXPECT_EQ(contained({panel, panel}, false), luminaires({1, 1, 0, 0, 0}));
-  EXPECT_EQ(contained({other}, false), luminaires({1, 1, 1, 1, 0}));
+  // What differs in any part of its id is another luminaire.
+  for (const LuminaireId& other : {LuminaireId{Kind::lamp, 9}, LuminaireId{Kind::surface, 4, 1, -1, 4},
+                                   LuminaireId{Kind::surface, 4, 0, 0, 4}, LuminaireId{Kind::surface, 4, 0, -1, 5}})
+    EXPECT_EQ(contained({lamp_of(other)}, false), luminaires({1, 1, 1, 1, 0}));
 }
 
 }  // namespace

@@ -91,8 +91,7 @@ TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
     EXPECT_NEAR(length(lamp.half_v), 0.25f, 1e-4f);
     EXPECT_LT(length(lamp.radiance - Vec3f{{4, 2, 1}}), 1e-4f);
     EXPECT_NEAR(lamp.power, 7.0f / 3 * pi * 0.75f, 1e-3f);
-    EXPECT_EQ(lamp.node, 3);
-    EXPECT_EQ(lamp.primitive, 2);
+    EXPECT_EQ(lamp.luminaire, (LuminaireId{LuminaireId::Kind::surface, 3, 0, 2, 0}));
     EXPECT_EQ(lamps.contained, luminaires({0}));
   }
 }

@@ -56,7 +56,7 @@ TEST(Container, CorruptBytesNeverCrash) {
 TEST(Container, HeaderFaultsAreNamed) {
   std::vector<uint8_t> bytes = sample_glb();
   put_u32(bytes, 4, 1);
-  EXPECT_EQ(error_of(bytes), "GLB header: version 1 is not supported, only 2");
+  EXPECT_EQ(error_of(bytes), "GLB header: version 1 is not supported, only 2 (at byte 4)");
   bytes = sample_glb();
   put_u32(bytes, 8, static_cast<uint32_t>(bytes.size()) + 4);
   EXPECT_NE(error_of(bytes).find("GLB header: announces"), std::string::npos);

@@ -40,8 +40,8 @@ inline std::vector<PackStream> random_streams(uint64_t seed) {
 }
 
 inline std::vector<uint8_t> make_pack(std::vector<uint8_t> bin, std::vector<PackStream> streams,
-                                      std::string json = "{\"asset\":{}}") {
-  return PackWriter::create(std::move(bin), std::move(streams)).value().finish(std::move(json)).value();
+                                      std::string text = "{\"asset\":{}}") {
+  return PackWriter::create(std::move(bin), std::move(streams)).value().finish(std::move(text)).value();
 }
 
 /// Reads from bytes in memory, which must outlive it.

@@ -2,7 +2,6 @@
 #include "lightwell/pack/reader.h"
 
 #include <gtest/gtest.h>
-
 #include <unistd.h>
 
 #include <atomic>

@@ -37,8 +37,14 @@ ClientLamp any_lamp(Random& random) {
     lamp.inner_cone = random.uniform() / 2;
     lamp.outer_cone = lamp.inner_cone + random.uniform() / 2;
   }
-  if (random.below(2)) lamp.node = static_cast<int>(random.below(1000));
-  if (random.below(2)) lamp.primitive = static_cast<int>(random.below(1000));
+  lamp.luminaire.kind = LuminaireId::Kind::lamp;
+  if (random.below(2)) lamp.luminaire.node = static_cast<int>(random.below(1000));
+  if (lamp.kind == Kind::rectangle || lamp.kind == Kind::sphere) {
+    lamp.luminaire.kind = LuminaireId::Kind::surface;
+    if (random.below(2)) lamp.luminaire.copy = static_cast<int>(random.below(1000));
+    if (random.below(2)) lamp.luminaire.primitive = static_cast<int>(random.below(1000));
+    lamp.luminaire.vertex = random.below(1000000);
+  }
   return lamp;
 }
 
@@ -56,8 +62,7 @@ void expect_same(const ClientLamp& a, const ClientLamp& b) {
   EXPECT_EQ(a.range, b.range);
   EXPECT_EQ(a.inner_cone, b.inner_cone);
   EXPECT_EQ(a.outer_cone, b.outer_cone);
-  EXPECT_EQ(a.node, b.node);
-  EXPECT_EQ(a.primitive, b.primitive);
+  EXPECT_EQ(a.luminaire, b.luminaire);
 }
 
 TEST(LampsExtension, ReadsWhatItWrites) {

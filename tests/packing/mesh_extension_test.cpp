@@ -19,8 +19,8 @@ Json pack_of(const std::vector<RefinedPrimitive>& list) {
 }
 
 RefinedPrimitive any_refined(Random& random, size_t mesh, size_t primitive) {
-  RefinedPrimitive refined{random.below(65536), random.below(1000000), random.below(1000000), {}, random.uniform(), mesh,
-                           primitive};
+  RefinedPrimitive refined{
+      random.below(65536), random.below(1000000), random.below(1000000), {}, random.uniform(), mesh, primitive};
   for (int axis = 0; axis < 3; axis++) {
     refined.bounds.lo[axis] = -random.uniform();
     refined.bounds.hi[axis] = random.uniform();

@@ -18,8 +18,12 @@ Json pack_of(const std::vector<RefinedTexture>& list) {
 }
 
 RefinedTexture any_refined(Random& random, size_t texture) {
-  return {random.below(65536), 1 + random.below(9999),     1 + random.below(9999), static_cast<ImageFormat>(random.below(3)),
-          texture,             random.below(9)};
+  return {random.below(65536),
+          1 + random.below(9999),
+          1 + random.below(9999),
+          static_cast<ImageFormat>(random.below(3)),
+          texture,
+          random.below(9)};
 }
 
 void expect_same(const RefinedTexture& a, const RefinedTexture& b) {

@@ -136,7 +136,8 @@ void expect_shown(const OpenedPack& pack, const std::vector<uint8_t>& file) {
   EXPECT_EQ(received.grids > 0, !pack.grids().empty());
   EXPECT_EQ(received.meshes.size(), pack.primitives().size());
   for (const RefinedPrimitive& refined : pack.primitives()) {
-    const auto mesh = read_primitive(*document, static_cast<int>(refined.mesh), static_cast<int>(refined.primitive), report);
+    const auto mesh =
+        read_primitive(*document, static_cast<int>(refined.mesh), static_cast<int>(refined.primitive), report);
     ASSERT_TRUE(mesh) << mesh.error().message();
     EXPECT_EQ(received.meshes[refined.stream].vertices, refined.vertices);
     EXPECT_EQ(received.meshes[refined.stream].positions, bytes_of(mesh->positions));
@@ -158,8 +159,7 @@ Packed pack_of_everything() {
   document.json["scenes"][0]["nodes"] = {0, 1, 2};
   ClientLamp lamp;
   lamp.kind = ClientLamp::Kind::rectangle;
-  lamp.node = 0;
-  lamp.primitive = 0;
+  lamp.luminaire = {LuminaireId::Kind::surface, 0, 0, 0, 0};
   return pack(std::move(document), {lamp});
 }
 
@@ -167,7 +167,9 @@ Packed pack_of_everything() {
 void spoil(std::vector<PackStream>& streams, Random& random) {
   PackStream& stream = streams[random.below(static_cast<uint32_t>(streams.size()))];
   switch (random.below(4)) {
-    case 0: stream.parameters[random.below(static_cast<uint32_t>(stream.parameters.size()))] ^= 1u << random.below(8); break;
+    case 0:
+      stream.parameters[random.below(static_cast<uint32_t>(stream.parameters.size()))] ^= 1u << random.below(8);
+      break;
     case 1: stream.parameters.resize(random.below(static_cast<uint32_t>(stream.parameters.size() + 8))); break;
     case 2: stream.blocks[random.below(static_cast<uint32_t>(stream.blocks.size()))].adds += random.below(3); break;
     case 3: stream.kind = static_cast<StreamKind>(random.below(3)); break;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "lightwell/base/vector.h"
+#include "lightwell/scene/luminaire_id.h"
 
 namespace lightwell {
 
@@ -24,8 +25,7 @@ struct ClientLamp {
   float inner_cone = 0, outer_cone = 0;  ///< radians from the axis, of a spot
   bool two_sided = false;                ///< a rectangle that shines to both sides
   float power = 0;                       ///< W, mean of the channels; what lamps are ranked by
-  int node = -1;                         ///< of the scene's document
-  int primitive = -1;                    ///< of that node's mesh, whose surface shines; -1: of no surface
+  LuminaireId luminaire;                 ///< that it stands for
 };
 
 }  // namespace lightwell

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/trace/connected_faces.h"
+#include "lightwell/mesh/connected_faces.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lightwell/scene/scene.h"
+#include "lightwell/mesh/mesh.h"
 
 namespace lightwell {
 
