@@ -8,14 +8,15 @@ lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp
                BAKER_ONLY image_file.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
 lightwell_room(light DEPENDS base BAKER_ONLY stream_encode.cpp)
 lightwell_room(pack DEPENDS base BAKER_ONLY content_hash.cpp reader.cpp writer.cpp)
+lightwell_room(asset DEPENDS pack light mesh texture base)
 lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_json draco::draco meshoptimizer::meshoptimizer)
 lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
 lightwell_room(trace DEPENDS scene mesh texture base LIBRARIES embree)
 lightwell_room(render DEPENDS trace light scene texture base LIBRARIES tinyexr::tinyexr)
 lightwell_room(bake DEPENDS trace light scene mesh base)
-lightwell_room(packing DEPENDS pack light mesh texture gltf scene base)
-lightwell_room(client DEPENDS pack light mesh texture base)
+lightwell_room(packing DEPENDS asset pack light mesh texture gltf scene base)
+lightwell_room(client DEPENDS asset pack light base)
 lightwell_room(transport DEPENDS client base LIBRARIES Boost::headers)
 lightwell_room(server DEPENDS pack base LIBRARIES Boost::headers)
-lightwell_room(cli DEPENDS base mesh texture gltf light pack scene trace bake packing render client transport server
+lightwell_room(cli DEPENDS base mesh texture gltf light pack asset scene trace bake packing render client transport server
                LIBRARIES CLI11::CLI11)

@@ -8,7 +8,7 @@ set(wasm_folder ${CMAKE_BINARY_DIR}/wasm)
 set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
 # For size: docs/decisions/008-size-of-the-page.md. -O2 for base, mesh and light adds 7 KB in brotli; a pack of 400 k triangles is
 # then decoded in 0.43 instead of 0.54 s of CPU time, in a worker, while its bytes take longer to come.
-set(wasm_flags --target=wasm32-wasi -std=c++20 -Oz -flto -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
+set(wasm_flags --target=wasm32-wasi -std=c++20 -Oz -flto -fwhole-program-vtables -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
   -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
   -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
 if(LIGHTWELL_WERROR)
@@ -35,7 +35,7 @@ function(lightwell_wasm_objects out)
   set(${out} ${objects} PARENT_SCOPE)
 endfunction()
 
-lightwell_client_sources(wasm_sources base mesh light texture pack client)
+lightwell_client_sources(wasm_sources base mesh light texture pack asset client)
 lightwell_wasm_objects(wasm_objects ${wasm_sources})
 
 # Clang calls wasm-opt by itself where it is installed, but does not tell it that the linker keeps the first 1024 bytes of memory
@@ -45,9 +45,10 @@ set(wasm_shorten "")
 if(LIGHTWELL_WASM_OPT)
   set(wasm_shorten COMMAND ${LIGHTWELL_WASM_OPT} -Oz --low-memory-unused ${wasm_module} -o ${wasm_module})
 endif()
+# What is inlined is what gets shorter by it (docs/decisions/008-size-of-the-page.md): -Oz alone inlines more at this point.
 add_custom_command(OUTPUT ${wasm_module}
-  COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Oz -flto -Wl,--gc-sections -Wl,--strip-all
-          ${wasm_objects} -o ${wasm_module}
+  COMMAND ${LIGHTWELL_WASM_CXX} --target=wasm32-wasi -mexec-model=reactor -Oz -flto -fwhole-program-vtables
+          -Wl,--gc-sections -Wl,--strip-all -Wl,-mllvm,-inline-threshold=-20 ${wasm_objects} -o ${wasm_module}
   ${wasm_shorten}
   DEPENDS ${wasm_objects} COMMENT "Linking lib/lightwell.wasm" VERBATIM)
 add_custom_target(lightwell_client_wasm ALL DEPENDS ${wasm_module})

@@ -26,14 +26,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   ByteReader reader({data, size});
   const Case one = read_case(reader);
   if (one.parts.size() < 2) return 0;
-  ByteReader parameters(one.parts[0]);
-  const auto layout = MeshLayout::read(parameters);
-  if (!layout || layout->vertices > most_vertices || layout->faces > most_faces) return 0;
-  const auto places = BasePlaces::read(parameters);
-  if (!places) return 0;
-  const auto base = BaseArrays::read(*layout, *places, one.parts[1]);
+  const auto parameters = MeshParameters::read(one.parts[0]);
+  if (!parameters) return 0;
+  const MeshLayout& layout = parameters->layout;
+  if (layout.vertices > most_vertices || layout.faces > most_faces) return 0;
+  const auto base = BaseArrays::read(layout, parameters->places, one.parts[1]);
   if (!base) return 0;
-  auto decoder = MeshDecoder::open(*layout, base->view(), any_length);
+  auto decoder = MeshDecoder::open(layout, base->view(), any_length);
   if (!decoder) return 0;
   draw(*decoder);
   for (size_t i = 2; i < one.parts.size(); i++) {

@@ -63,6 +63,7 @@ void plant_streams(Seeds& seeds) {
     write_case(writer, one);
     if (one.room == Room::light) seeds.plant("light", writer.bytes());
     if (one.room == Room::mesh) seeds.plant("mesh", writer.bytes());
+    if (one.room == Room::asset) seeds.plant("asset", writer.bytes());
   }
 }
 

@@ -4,7 +4,7 @@
 #   asserts.sh SOURCE_FOLDER
 set -euo pipefail
 looks='all_of any_of is_sorted static_cast size_t size empty count has_value ok error message find begin end front back
-  is_finite refers check_image_size irradiance received vertices positions faces indices known ready'
+  is_finite refers check_image_size irradiance received vertices positions faces indices known ready accepts added'
 cd "$1"
 find lightwell fuzz bench tests \( -name '*.h' -o -name '*.cpp' \) -not -path lightwell/base/assert.h -print0 |
   LOOKS=$looks xargs -0 perl -0777 -e '

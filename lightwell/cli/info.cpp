@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lightwell/asset/mesh_asset.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/info_text.h"
 #include "lightwell/cli/pack_name.h"
-#include "lightwell/mesh/stream.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/opened_pack.h"
+#include "lightwell/packing/unpack.h"
 
 namespace lightwell {
 namespace {
@@ -21,9 +22,10 @@ Figures stream_figures(const PackReader& pack, size_t stream, bool blocks) {
   return figures;
 }
 
-Result<Figures> mesh_figures(const StreamEntry& entry) {
-  ByteReader parameters(entry.parameters);
-  LW_TRY(layout, MeshLayout::read(parameters));
+Result<Figures> mesh_figures(const PackReader& pack, size_t stream) {
+  LW_TRY(mesh, open_asset_as<MeshAsset>(pack, stream));
+  const MeshLayout& layout = mesh->layout();
+  const StreamEntry& entry = pack.directory().streams[stream];
   return Figures{{"vertices", layout.vertices},
                  {"faces", layout.faces},
                  {"bits_per_vertex", 8.0 * entry.length / std::max(1u, layout.vertices - layout.base_vertices)}};
@@ -54,7 +56,7 @@ Result<Figures> describe(const std::string& path, bool blocks) {
   for (size_t i = 0; i < directory.streams.size(); i++) {
     figures["streams"].push_back(stream_figures(pack.reader(), i, blocks));
     if (directory.streams[i].kind != StreamKind::mesh) continue;
-    LW_TRY(mesh, mesh_figures(directory.streams[i]));
+    LW_TRY(mesh, mesh_figures(pack.reader(), i));
     figures["meshes"].push_back(std::move(mesh));
   }
   for (const GridDescription& grid : pack.grids()) figures["grids"].push_back(grid_figures(pack, grid));

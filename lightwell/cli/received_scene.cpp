@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lightwell/asset/asset.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/texture/image_format.h"
 
@@ -42,15 +43,15 @@ void ReceivedScene::apply(const Update& update) {
   } else if (const auto* range = std::get_if<RangeUpdate>(&update)) {
     take(*range);
   } else if (const auto* draw = std::get_if<DrawUpdate>(&update)) {
-    meshes_[draw->stream].vertices = draw->vertices;
-    meshes_[draw->stream].faces = draw->faces;
+    meshes_[draw->asset].vertices = draw->vertices;
+    meshes_[draw->asset].faces = draw->faces;
   } else if (const auto* texture = std::get_if<TextureUpdate>(&update)) {
-    images_[texture->stream].assign(texture->file.begin(), texture->file.end());
+    images_[texture->asset].assign(texture->file.begin(), texture->file.end());
   }
 }
 
 void ReceivedScene::take(const MeshUpdate& update) {
-  Buffers& buffers = meshes_[update.stream];
+  Buffers& buffers = meshes_[update.asset];
   buffers.attributes = update.attributes;
   for (const AttributeLayout& layout : update.attributes)
     buffers.data.emplace_back(size_t(update.vertices) * layout.stride);
@@ -58,7 +59,7 @@ void ReceivedScene::take(const MeshUpdate& update) {
 }
 
 void ReceivedScene::take(const RangeUpdate& update) {
-  Buffers& buffers = meshes_[update.stream];
+  Buffers& buffers = meshes_[update.asset];
   auto& target = update.buffer == RangeUpdate::indices ? buffers.indices : buffers.data[update.buffer];
   std::copy(update.data.begin(), update.data.end(), target.begin() + static_cast<ptrdiff_t>(update.offset));
 }
@@ -91,12 +92,12 @@ Result<std::vector<uint8_t>> ReceivedScene::glb() const {
   Report report;
   LW_TRY(document, read_document(opening_, {}, report));
   const PackRefinement refinement{[this](size_t stream) -> Result<Mesh> {
-                                    const auto found = meshes_.find(static_cast<uint32_t>(stream));
+                                    const auto found = meshes_.find(asset_of_stream(static_cast<uint32_t>(stream)));
                                     if (found == meshes_.end()) return fail("", "a mesh has not come");
                                     return mesh_of(found->second);
                                   },
                                   [this](size_t stream) -> Result<std::vector<uint8_t>> {
-                                    const auto found = images_.find(static_cast<uint32_t>(stream));
+                                    const auto found = images_.find(asset_of_stream(static_cast<uint32_t>(stream)));
                                     return found == images_.end() ? std::vector<uint8_t>() : found->second;
                                   }};
   LW_CHECK(refine_document(document, refinement));

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "lightwell/client/update.h"
+#include "lightwell/asset/update.h"
 #include "lightwell/gltf/document.h"
 
 namespace lightwell {
@@ -32,7 +32,7 @@ class ReceivedScene {
   void take(const RangeUpdate& update);
 
   std::vector<uint8_t> opening_;
-  std::map<uint32_t, Buffers> meshes_;  ///< by stream
+  std::map<uint32_t, Buffers> meshes_;  ///< by asset
   std::map<uint32_t, std::vector<uint8_t>> images_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace lightwell {
 
-/// What a client wants of its transport.
+/// An order of a client to its transport.
 struct Action {
   enum class Kind : uint8_t {
     ask,    ///< send a request for the bytes first ... last (HTTP: "Range: bytes=first-last" and no other header)
@@ -19,7 +19,7 @@ struct Action {
   uint64_t last = 0;  ///< inclusive
 };
 
-/// What a server said before the body; a header that is absent, or that the transport may not see, is empty.
+/// The head of a server's response. A header that is absent, or that the transport may not see, is empty.
 struct ResponseHead {
   int status = 0;
   std::string_view content_range;

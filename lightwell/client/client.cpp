@@ -4,30 +4,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightwell/asset/codecs.h"
 #include "lightwell/client/download.h"
-#include "lightwell/client/refiner.h"
 #include "lightwell/client/requests.h"
 #include "lightwell/pack/self_contained.h"
 
 namespace lightwell {
 
-namespace {
-
-// For the buffers of all streams together, of the 4 GiB that a WebAssembly module may have.
-constexpr uint64_t most_buffer_bytes = uint64_t(3) << 30;
-
-}  // namespace
-
 class Client::Machine {
  public:
   explicit Machine(const ClientOptions& options)
-      : options_(options), requests_(download_, options.strategy, options.seed) {}
+      : requests_(download_, options.strategy, options.seed), context_{.bin = {}, .fill = options.fill} {}
 
   std::optional<Action> next(double now) { return requests_.next(weights_, now); }
 
   Requests& requests() { return requests_; }
 
-  /// Follows the requests: opens what the download has opened, gives up when they did.
+  /// Takes over what the requests have brought: the opening once it is there, and their failure.
   void follow() {
     if (failure_) return;
     if (requests_.failure()) return give_up(*requests_.failure());
@@ -37,8 +30,8 @@ class Client::Machine {
 
   bool work() {
     if (failure_ || !download_.opened() || opening_waits()) return false;
-    if (refiners_.size() < download_.directory().streams.size()) {
-      open_refiner();
+    if (decoders_.size() < download_.directory().streams.size()) {
+      open_decoder();
       return !failure_;
     }
     return decode_next() || settle_next();
@@ -51,18 +44,18 @@ class Client::Machine {
       opening_taken_ = true;
       return OpeningUpdate{download_.opening()};
     }
-    // Who takes pieces may stop when there is no room for more, so what all have to say of themselves comes before.
-    while (announced_ < refiners_.size())
-      if (std::optional<Update> update = refiners_[announced_++]->announce()) return update;
-    if (refiners_.size() < download_.directory().streams.size()) return std::nullopt;
-    const size_t count = refiners_.size();
+    // Who takes pieces may stop when there is no room for more, so all announcements come before.
+    while (announced_ < decoders_.size())
+      if (std::optional<Update> update = decoders_[announced_++]->announce()) return update;
+    if (decoders_.size() < download_.directory().streams.size()) return std::nullopt;
+    const size_t count = decoders_.size();
     for (size_t tried = 0; tried < count; tried++) {
-      if (std::optional<Update> update = refiners_[turn_]->take(budget)) return update;
+      if (std::optional<Update> update = decoders_[turn_]->take(budget)) return update;
       turn_ = (turn_ + 1) % count;
     }
     if (completed_ || !all_decoded()) return std::nullopt;
     for (size_t i = 0; i < count; i++)
-      if (!refiners_[i]->complete()) {
+      if (!decoders_[i]->complete()) {
         give_up({FailureUpdate::Reason::unreadable, "stream " + std::to_string(i) + " is not complete"});
         return take_failure();
       }
@@ -71,8 +64,10 @@ class Client::Machine {
     return CompleteUpdate{};
   }
 
-  void set_weight(uint32_t stream, float weight) {
-    if (stream < weights_.size() && weight >= 0 && std::isfinite(weight)) weights_[stream] = weight;
+  void set_weight(uint32_t asset, float weight) {
+    if (!(weight >= 0 && std::isfinite(weight))) return;
+    for (uint32_t stream = 0; stream < weights_.size(); stream++)
+      if (asset_of_stream(stream) == asset) weights_[stream] = weight;
   }
 
   ClientProgress progress() const {
@@ -88,9 +83,9 @@ class Client::Machine {
       (light ? progress.light_bytes : progress.geometry_bytes) += download_.received(i);
       (light ? progress.light_bytes_total : progress.geometry_bytes_total) += streams[i].length;
       progress.bytes -= streams[i].length - download_.received(i);
-      if (i >= refiners_.size()) continue;
-      (light ? progress.nodes : progress.faces) += refiners_[i]->decoded();
-      (light ? progress.nodes_total : progress.faces_total) += refiners_[i]->total();
+      if (i >= decoders_.size()) continue;
+      (light ? progress.nodes : progress.faces) += decoders_[i]->decoded();
+      (light ? progress.nodes_total : progress.faces_total) += decoders_[i]->total();
     }
     return progress;
   }
@@ -119,24 +114,25 @@ class Client::Machine {
     return false;
   }
 
-  /// What is there of a light at first is handed over at once, however much waits to be decoded.
-  void open_refiner() {
-    const uint32_t stream = static_cast<uint32_t>(refiners_.size());
-    auto refiner =
-        make_refiner(download_.directory(), stream, glb_chunks(download_.opening()).bin, options_.fill, budget_);
-    if (!refiner) return give_up({FailureUpdate::Reason::unreadable, refiner.error().message()});
-    refiners_.push_back(std::move(*refiner));
+  /// Opens the next stream's decoder. What is there of a light at first is handed over at once, however much waits to
+  /// be decoded.
+  void open_decoder() {
+    const uint32_t stream = static_cast<uint32_t>(decoders_.size());
+    context_.bin = glb_chunks(download_.opening()).bin;
+    auto decoder = open_asset(download_.directory(), stream, context_);
+    if (!decoder) return give_up({FailureUpdate::Reason::unreadable, decoder.error().message()});
+    decoders_.push_back(std::move(*decoder));
     if (download_.directory().streams[stream].kind == StreamKind::light && download_.ready(stream)) decode(stream);
-    if (!failure_) refiners_.back()->settle();
+    if (!failure_) decoders_.back()->settle();
   }
 
-  /// Decodes a block of the next stream, in turns, that has one and takes one.
+  /// Decodes a block of the next stream, in turns, that has a block ready and accepts it.
   bool decode_next() {
-    const size_t count = refiners_.size();
+    const size_t count = decoders_.size();
     for (size_t tried = 0; tried < count; tried++) {
       const size_t stream = decoding_;
       decoding_ = (decoding_ + 1) % count;
-      if (!download_.ready(stream) || !refiners_[stream]->accepts()) continue;
+      if (!download_.ready(stream) || !decoders_[stream]->accepts()) continue;
       decode(stream);
       return !failure_;
     }
@@ -145,7 +141,7 @@ class Client::Machine {
 
   /// Decodes the block of a stream that is ready.
   void decode(size_t stream) {
-    const auto decoded = refiners_[stream]->append(download_.take(stream));
+    const auto decoded = decoders_[stream]->append(download_.take(stream));
     if (decoded) return;
     const std::string block = std::to_string(download_.taken(stream) - 1);
     give_up({FailureUpdate::Reason::unreadable,
@@ -153,15 +149,15 @@ class Client::Machine {
   }
 
   bool settle_next() {
-    return std::ranges::any_of(refiners_, [](const auto& refiner) { return refiner->settle(); });
+    return std::ranges::any_of(decoders_, [](const auto& decoder) { return decoder->settle(); });
   }
 
   /// True when every block has been decoded and is ready to be handed over.
   bool all_decoded() const {
     for (size_t i = 0; i < download_.directory().streams.size(); i++)
       if (!download_.complete(i)) return false;
-    return refiners_.size() == download_.directory().streams.size() &&
-           std::ranges::all_of(refiners_, [](const auto& refiner) { return refiner->settled(); });
+    return decoders_.size() == download_.directory().streams.size() &&
+           std::ranges::all_of(decoders_, [](const auto& decoder) { return decoder->settled(); });
   }
 
   void give_up(FailureUpdate failure) {
@@ -175,15 +171,14 @@ class Client::Machine {
     return *failure_;
   }
 
-  ClientOptions options_;
   Download download_;
   Requests requests_;
   std::vector<float> weights_;
-  std::vector<std::unique_ptr<Refiner>> refiners_;
-  uint64_t budget_ = most_buffer_bytes;
-  size_t decoding_ = 0;   ///< the stream whose turn it is to be decoded
-  size_t announced_ = 0;  ///< refiners that have said what they are
-  size_t turn_ = 0;       ///< the stream whose turn it is to hand over
+  AssetContext context_;
+  std::vector<std::unique_ptr<AssetDecoder>> decoders_;  ///< of the first streams
+  size_t decoding_ = 0;                                  ///< the stream whose turn it is to be decoded
+  size_t announced_ = 0;                                 ///< decoders that have said what they are of
+  size_t turn_ = 0;                                      ///< the stream whose turn it is to hand over
   bool checked_ = false;
   bool opening_taken_ = false;
   bool completed_ = false;
@@ -221,7 +216,7 @@ std::optional<Update> Client::take(size_t budget) { return machine_->take(budget
 
 double Client::wake() const { return machine_->requests().wake(); }
 
-void Client::set_weight(uint32_t stream, float weight) { machine_->set_weight(stream, weight); }
+void Client::set_weight(uint32_t asset, float weight) { machine_->set_weight(asset, weight); }
 void Client::set_strategy(Strategy strategy) { machine_->requests().set_strategy(strategy); }
 
 ClientProgress Client::progress() const { return machine_->progress(); }

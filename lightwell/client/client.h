@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
+#include "lightwell/asset/update.h"
 #include "lightwell/base/bytes.h"
 #include "lightwell/client/action.h"
 #include "lightwell/client/schedule.h"
-#include "lightwell/client/update.h"
 #include "lightwell/light/push_pull.h"
 
 namespace lightwell {
@@ -67,10 +67,11 @@ class Client {
   /// passes between two calls.
   double wake() const;
 
-  /// How much a stream of any kind matters to the present picture, 1 at first: what a run of its blocks is worth is the
-  /// share of the stream's first error that it takes away, times this weight. Finite and not negative, else ignored, as
-  /// before the opening has been taken; 0 puts the stream last.
-  void set_weight(uint32_t stream, float weight);
+  /// How much an asset of any kind matters to the present picture, 1 at first: what a run of its stream's blocks is
+  /// worth is the share of the stream's first error that it takes away, times this weight. It is the asset that has a
+  /// weight, since that is what a view sees. Finite and not negative, else ignored, as before the opening has been
+  /// taken; 0 puts the asset last.
+  void set_weight(uint32_t asset, float weight);
   /// Takes another strategy from the next request on.
   void set_strategy(Strategy strategy);
 

@@ -93,8 +93,8 @@ Result<void> Download::open() {
   witness_.assign(witness.begin(), witness.end());
   for (const StreamEntry& entry : read.streams) {
     BlockTable table = *BlockTable::place(entry, opening.size());
-    std::vector<State> states(table.known());
-    streams_.push_back({std::move(table), std::move(states), 0, {}, 0, 0});
+    std::vector<uint8_t> here(table.known());
+    streams_.push_back({std::move(table), std::move(here), {}, 0, 0});
   }
   directory_ = std::move(read);
   head_ = {};
@@ -105,8 +105,8 @@ std::pair<uint64_t, uint64_t> Download::wanted_witness() const {
   return {directory_->opening_length, directory_->opening_length + witness_.size()};
 }
 
-/// Reads the directory's beginning once more. Another one that comes twice is no damage on the way: the file was
-/// replaced.
+/// Reads the directory's beginning once more. A different beginning that comes twice is no damage on the way: the file
+/// was replaced.
 uint64_t Download::read_witness(Cursor& cursor, Bytes& bytes) {
   const uint64_t begin = directory_->opening_length;
   if (cursor.position < begin) cut(cursor, bytes, begin - cursor.position);
@@ -135,7 +135,7 @@ std::optional<size_t> Download::stream_at(uint64_t position) const {
   return static_cast<size_t>(found - streams_.begin());
 }
 
-/// Adds to the extent under the cursor. What nobody knows the place of, or has come before, is skipped.
+/// Adds to the extent under the cursor. Bytes whose place is not known yet, or that have come before, are skipped.
 Result<uint64_t> Download::receive_extent(size_t index, Cursor& cursor, Bytes& bytes) {
   const Stream& stream = streams_[index];
   const std::optional<uint32_t> number = stream.table.at(cursor.position);
@@ -147,7 +147,7 @@ Result<uint64_t> Download::receive_extent(size_t index, Cursor& cursor, Bytes& b
   const Extent extent = stream.table.extent(*number);
   const bool joined = cursor.position == extent.begin + cursor.partial.size();
   const uint64_t rest = extent.end() - cursor.position;
-  if (stream.states[*number] == State::here || !joined) {
+  if (stream.here[*number] || !joined) {
     cursor.partial.clear();
     cut(cursor, bytes, rest);
     return 0;
@@ -172,13 +172,12 @@ Result<uint64_t> Download::accept(size_t index, uint32_t number, Bytes bytes) {
   if (extent.page) {
     if (auto added = stream.table.add_page(payload); !added)
       return lightwell::fail(in_element(std::move(added.error()), "stream " + std::to_string(index)));
-    stream.states.resize(stream.table.known());
+    stream.here.resize(stream.table.known());
   } else {
     stream.ready.emplace(extent.block, std::vector<uint8_t>(payload.begin(), payload.end()));
     backlog_ += payload.size();
   }
-  stream.states[number] = State::here;
-  skip_present(stream);
+  stream.here[number] = 1;
   stream.received += extent.length;
   return extent.length;
 }
@@ -190,42 +189,6 @@ Result<void> Download::strike(size_t index, const Extent& extent) {
   return lightwell::fail("stream " + std::to_string(index) + (extent.page ? ", table page at block " : ", block ") +
                              std::to_string(extent.block),
                          "its check failed twice: the file is damaged, or was replaced");
-}
-
-std::optional<Run> Download::missing(size_t index, uint64_t length, uint64_t ahead) const {
-  const Stream& stream = streams_[index];
-  const uint32_t known = stream.table.known();
-  if (stream.first_missing == known) return std::nullopt;
-  uint32_t first = stream.first_missing;
-  const uint32_t last = known - 1;
-  const bool page_missing = known < stream.table.extents() && stream.states[last] == State::missing;
-  if (page_missing && stream.table.extent(last).begin - stream.table.extent(first).begin < ahead) first = last;
-  const uint64_t begin = stream.table.extent(first).begin;
-  uint32_t end = first;
-  do end++;
-  while (end < known && stream.states[end] == State::missing && stream.table.extent(end).end() - begin <= length);
-  return Run{index, first, end - first, begin, stream.table.extent(end - 1).end()};
-}
-
-void Download::skip_present(Stream& stream) {
-  while (stream.first_missing < stream.states.size() && stream.states[stream.first_missing] != State::missing)
-    stream.first_missing++;
-}
-
-void Download::asked(const Run& run) {
-  Stream& stream = streams_[run.stream];
-  for (uint32_t i = run.first; i < run.first + run.count; i++)
-    if (stream.states[i] == State::missing) stream.states[i] = State::asked;
-  skip_present(stream);
-}
-
-void Download::unasked(const Run& run) {
-  Stream& stream = streams_[run.stream];
-  for (uint32_t i = run.first + run.count; i-- > run.first;) {
-    if (stream.states[i] != State::asked) continue;
-    stream.states[i] = State::missing;
-    stream.first_missing = std::min(stream.first_missing, i);
-  }
 }
 
 bool Download::ready(size_t stream) const {

@@ -15,24 +15,15 @@
 
 namespace lightwell {
 
-/// A body on its way: where in the file its next byte belongs, and the beginning of an extent that is not whole yet.
+/// The place in the file where the next byte of a body belongs, and the beginning of an extent that is not whole yet.
 struct Cursor {
   uint64_t position = 0;
   std::vector<uint8_t> partial;
 };
 
-/// Consecutive extents of a stream that nobody has asked for.
-struct Run {
-  size_t stream = 0;
-  uint32_t first = 0;  ///< extent
-  uint32_t count = 0;
-  uint64_t begin = 0;  ///< file position
-  uint64_t end = 0;
-};
-
 /// The file as far as it has arrived. Bytes may come in any order and more than once; only what passes its check
-/// counts. A check that fails twice at the same place is an error, a first one is forgotten: the place is missing
-/// again.
+/// counts. A check that fails twice at the same place is an error; after a first failure the place counts as not
+/// here. What has been asked for, and what is asked next, is the business of client/run_order.h.
 class Download {
  public:
   /// Takes bytes of a body and moves its cursor. Gives the number of good bytes gained.
@@ -62,13 +53,8 @@ class Download {
   /// Bytes of checked blocks that nobody has taken.
   uint64_t backlog() const { return backlog_; }
 
-  /// The first missing extents of a stream, about `length` bytes of them and at least one; none when nothing known is
-  /// missing. When less than `ahead` bytes of the stream are known and missing, its next table page comes first.
-  std::optional<Run> missing(size_t stream, uint64_t length, uint64_t ahead) const;
-  /// Marks a run as asked for, so that it is not missing.
-  void asked(const Run& run);
-  /// Marks what has not arrived of a run as missing again.
-  void unasked(const Run& run);
+  /// True when a known extent of the stream has arrived.
+  bool here(size_t stream, uint32_t extent) const { return streams_[stream].here[extent]; }
 
   /// True when the stream's next block, in its order, is there.
   bool ready(size_t stream) const;
@@ -79,13 +65,11 @@ class Download {
   bool complete(size_t stream) const { return taken(stream) == table(stream).blocks(); }
 
  private:
-  enum class State : uint8_t { missing, asked, here };
   struct Stream {
     BlockTable table;
-    std::vector<State> states;                       ///< of the known extents
-    uint32_t first_missing = 0;                      ///< no extent before it is missing
+    std::vector<uint8_t> here;                       ///< 1 for each known extent that has arrived, 0 else
     std::map<uint32_t, std::vector<uint8_t>> ready;  ///< blocks that have arrived and were not taken
-    uint32_t next = 0;
+    uint32_t next = 0;                               ///< the block that is taken next
     uint64_t received = 0;
   };
 
@@ -94,7 +78,6 @@ class Download {
   uint64_t read_witness(Cursor& cursor, Bytes& bytes);
   Result<uint64_t> receive_extent(size_t stream, Cursor& cursor, Bytes& bytes);
   Result<uint64_t> accept(size_t stream, uint32_t index, Bytes bytes);
-  static void skip_present(Stream& stream);
   Result<void> strike(size_t stream, const Extent& extent);
   std::optional<size_t> stream_at(uint64_t position) const;
 

@@ -24,7 +24,7 @@ std::optional<Action> Requests::next(std::span<const float> weights, double now)
     cancels_.pop_back();
     return Action{Action::Kind::cancel, id};
   }
-  if (stopped_ || whole_ || now < line_.retry_at()) return std::nullopt;
+  if (stopped_ || whole_file_request_ || now < line_.retry_at()) return std::nullopt;
   if (!download_.opened()) {
     if (!open_.empty()) return std::nullopt;
     return ask(download_.wanted_head(), std::nullopt, now);
@@ -39,9 +39,9 @@ std::optional<Action> Requests::ask_for_extents(std::span<const float> weights, 
   if (std::ranges::any_of(open_, [](const auto& open) { return !open.second.run; })) return std::nullopt;
   if (download_.suspicious()) return ask(download_.wanted_witness(), std::nullopt, now);
   if (download_.backlog() > longest_backlog) return std::nullopt;
-  const std::optional<Run> run = choose(download_, strategy_, weights, line_.request_length(), most_in_flight);
+  const std::optional<Run> run = choose(order_, strategy_, weights, line_.request_length(), most_in_flight);
   if (!run) return std::nullopt;
-  download_.asked(*run);
+  order_.asked(*run);
   return ask({run->begin, run->end}, run, now);
 }
 
@@ -73,16 +73,17 @@ void Requests::respond_partial(Open::iterator request, std::string_view content_
   if (range->total) check_length(*range->total);
 }
 
-/// The server does not know ranges: its one response brings everything, and the others would bring it again.
+/// Drops all other requests: the server does not know ranges, its one response brings everything, and each of the
+/// others would bring it again.
 void Requests::respond_whole(Open::iterator request) {
-  whole_ = request->first;
+  whole_file_request_ = request->first;
   request->second.cursor.position = 0;
   request->second.end = std::numeric_limits<uint64_t>::max();
   for (auto other = open_.begin(); other != open_.end();) {
     const auto current = other++;
     if (current == request) continue;
     cancels_.push_back(current->first);
-    if (current->second.run) download_.unasked(*current->second.run);
+    if (current->second.run) order_.unasked(*current->second.run);
     open_.erase(current);
   }
 }
@@ -125,9 +126,9 @@ void Requests::fail(uint32_t id, double now) {
 }
 
 void Requests::end(Open::iterator request, bool failed, double now) {
-  if (request->second.run) download_.unasked(*request->second.run);
+  if (request->second.run) order_.unasked(*request->second.run);
   if (failed) line_.failed(now);
-  if (whole_ == request->first) whole_.reset();
+  if (whole_file_request_ == request->first) whole_file_request_.reset();
   open_.erase(request);
 }
 
@@ -154,8 +155,8 @@ void Requests::check_length(uint64_t length) {
             "the file has " + std::to_string(length) + " bytes, but should have " + std::to_string(stated));
 }
 
-/// Servers that share the work give equal files ETags of their own. So another ETag is a reason to look once whether
-/// the file is still the same; later ones say nothing, and the blocks' checks have to.
+/// Notes a response's ETag. Servers that share the work may give equal files ETags of their own, so a different ETag is
+/// a reason to look once whether the file is still the same; later ones say nothing, and the blocks' checks decide.
 void Requests::note_etag(std::string_view etag) {
   if (etag.empty() || etags_differ_) return;
   if (etag_.empty()) etag_ = etag;
@@ -172,7 +173,7 @@ void Requests::stop() {
   stopped_ = true;
   for (const auto& [id, request] : open_) cancels_.push_back(id);
   open_.clear();
-  whole_.reset();
+  whole_file_request_.reset();
 }
 
 bool Requests::opening_brings(uint64_t position) const {
@@ -182,7 +183,8 @@ bool Requests::opening_brings(uint64_t position) const {
   });
 }
 
-/// A pause that has ended since the last next() counts: nobody has been asked since then.
+/// The earliest end of a pause or of the patience with a request. A pause that has ended since the last next() counts,
+/// since nothing has been asked for since then.
 double Requests::wake() const {
   if (stopped_) return never;
   double when = line_.retry_at() > looked_ ? line_.retry_at() : never;

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "lightwell/asset/update.h"
 #include "lightwell/client/action.h"
 #include "lightwell/client/download.h"
-#include "lightwell/client/line.h"
+#include "lightwell/client/line_estimate.h"
+#include "lightwell/client/run_order.h"
 #include "lightwell/client/schedule.h"
-#include "lightwell/client/update.h"
 
 namespace lightwell {
 
@@ -20,7 +21,7 @@ namespace lightwell {
 class Requests {
  public:
   Requests(Download& download, Strategy strategy, uint64_t seed)
-      : download_(download), strategy_(strategy), line_(seed) {}
+      : download_(download), order_(download), strategy_(strategy), line_(seed) {}
 
   /// The next thing to do, if any; `weights` as in choose().
   std::optional<Action> next(std::span<const float> weights, double now);
@@ -32,10 +33,11 @@ class Requests {
   void set_strategy(Strategy strategy) { strategy_ = strategy; }
   /// Ends everything: what is under way is cancelled, and nothing is asked any more.
   void stop();
-  /// Why that happened, if it was not somebody else who called stop().
+  /// The reason why the requests stopped by themselves; none while they run, or when stop() was called from outside.
   const std::optional<FailureUpdate>& failure() const { return failure_; }
 
-  /// Whether the answer that brought the opening is under way still and will bring the file's bytes up to `position`.
+  /// True while the answer that brought the opening is still under way and will bring the file's bytes up to
+  /// `position`.
   bool opening_brings(uint64_t position) const;
 
   double wake() const;
@@ -46,7 +48,7 @@ class Requests {
   struct Request {
     Cursor cursor;
     uint64_t end = 0;        ///< the body is read up to this position of the file
-    std::optional<Run> run;  ///< what it is for; none: the opening, or the witness
+    std::optional<Run> run;  ///< the extents that it asks for; none: it asks for the opening, or the witness
     uint64_t gained = 0;     ///< good bytes
     double heard = 0;        ///< time of the last sign of life
   };
@@ -57,10 +59,10 @@ class Requests {
   void respond_partial(Open::iterator request, std::string_view content_range, double now);
   void respond_whole(Open::iterator request);
   void respond_refused(Open::iterator request, const ResponseHead& head, double now);
-  /// Gives up when the file has not this length any more.
+  /// Gives up when the file no longer has this length.
   void check_length(uint64_t length);
   void note_etag(std::string_view etag);
-  /// Forgets a request that is over; a failed one makes the next ones wait.
+  /// Forgets a request that is over. After a failed one the next ones wait.
   void end(Open::iterator request, bool failed, double now);
   /// Cancels a request that failed.
   void abandon(Open::iterator request, double now);
@@ -68,14 +70,15 @@ class Requests {
   void give_up(FailureUpdate::Reason reason, std::string message);
 
   Download& download_;
+  RunOrder order_;
   Strategy strategy_;
-  Line line_;
+  LineEstimate line_;
   uint32_t next_id_ = 1;
   double looked_ = -1;  ///< time of the last next()
   Open open_;
   std::vector<uint32_t> cancels_;
-  std::optional<uint32_t> whole_;  ///< the one response that brings the whole file
-  std::string etag_;               ///< the first one
+  std::optional<uint32_t> whole_file_request_;  ///< the one whose response brings the whole file
+  std::string etag_;                            ///< the first one
   bool etags_differ_ = false;
   uint64_t length_ = 0;  ///< of the file, as the server says; 0 while unknown
   bool stopped_ = false;

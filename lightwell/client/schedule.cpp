@@ -37,18 +37,19 @@ double benefit(const Download& download, const Run& run) {
 
 }  // namespace
 
-std::optional<Run> choose(const Download& download, Strategy strategy, std::span<const float> weights, uint64_t length,
+std::optional<Run> choose(RunOrder& order, Strategy strategy, std::span<const float> weights, uint64_t length,
                           uint64_t in_flight) {
+  const Download& download = order.download();
   const std::vector<StreamEntry>& streams = download.directory().streams;
   std::optional<Run> best;
-  std::tuple<int, double, StreamKind> best_order;
+  std::tuple<int, double, StreamKind> best_key;
   for (size_t i = 0; i < streams.size(); i++) {
-    const std::optional<Run> run = download.missing(i, length, length * in_flight);
+    const std::optional<Run> run = order.missing(i, length, length * in_flight);
     if (!run) continue;
-    const std::tuple order(rank(strategy, streams[i].kind), -weights[i] * benefit(download, *run), streams[i].kind);
-    if (best && order >= best_order) continue;
+    const std::tuple key(rank(strategy, streams[i].kind), -weights[i] * benefit(download, *run), streams[i].kind);
+    if (best && key >= best_key) continue;
     best = run;
-    best_order = order;
+    best_key = key;
   }
   return best;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "lightwell/client/download.h"
+#include "lightwell/client/run_order.h"
 
 namespace lightwell {
 
@@ -15,11 +15,11 @@ enum class Strategy : uint8_t {
   light        ///< all light, then meshes and textures
 };
 
-/// What to ask for next: a run of about `length` bytes of one stream. Among the streams that the strategy lets go first
-/// it is the one whose run takes away the largest share of the stream's first error per byte, times the stream's
-/// weight; light goes first in equal cases. `in_flight` is how many such runs fill the line: a table page is asked for
-/// before a stream runs dry.
-std::optional<Run> choose(const Download& download, Strategy strategy, std::span<const float> weights, uint64_t length,
+/// The run to ask for next, of the missing ones: a run of about `length` bytes of one stream. Among the streams that
+/// the strategy lets go first it is the one whose run takes away the largest share of the stream's first error per
+/// byte, times the stream's weight, of which there is one a stream; light goes first in equal cases. `in_flight` is how
+/// many such runs fill the line: a table page is asked for before a stream runs dry.
+std::optional<Run> choose(RunOrder& order, Strategy strategy, std::span<const float> weights, uint64_t length,
                           uint64_t in_flight);
 
 }  // namespace lightwell

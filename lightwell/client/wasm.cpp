@@ -45,20 +45,20 @@ uint32_t word_of(const AttributeLayout& layout) {
 struct WriteUpdate {
   uint32_t operator()(const OpeningUpdate& update) { return answer(1, address(update.glb.data()), update.glb.size()); }
   uint32_t operator()(const MeshUpdate& update) {
-    answer(2, update.stream, update.vertices, update.faces, update.attributes.size());
+    answer(2, update.asset, update.vertices, update.faces, update.attributes.size());
     std::ranges::transform(update.attributes, record.begin() + 4, word_of);
     return 2;
   }
   uint32_t operator()(const RangeUpdate& update) {
-    return answer(3, update.stream, update.buffer, update.offset, address(update.data.data()), update.data.size());
+    return answer(3, update.asset, update.buffer, update.offset, address(update.data.data()), update.data.size());
   }
-  uint32_t operator()(const DrawUpdate& update) { return answer(4, update.stream, update.vertices, update.faces); }
+  uint32_t operator()(const DrawUpdate& update) { return answer(4, update.asset, update.vertices, update.faces); }
   uint32_t operator()(const LightUpdate& update) {
-    return answer(5, update.stream, update.width, update.height, update.depth, update.nodes,
+    return answer(5, update.asset, update.width, update.height, update.depth, update.nodes,
                   address(update.atlas.data()), update.atlas.size());
   }
   uint32_t operator()(const TextureUpdate& update) {
-    return answer(6, update.stream, update.format, update.width, update.height, address(update.file.data()),
+    return answer(6, update.asset, update.format, update.width, update.height, address(update.file.data()),
                   update.file.size());
   }
   uint32_t operator()(const CompleteUpdate&) { return answer(7); }
@@ -128,8 +128,8 @@ void LW_EXPORT(lw_set_strategy)(uint32_t client, uint32_t strategy) {
   client_of(client).set_strategy(strategy_of(strategy));
 }
 
-void LW_EXPORT(lw_set_weight)(uint32_t client, uint32_t stream, float weight) {
-  client_of(client).set_weight(stream, weight);
+void LW_EXPORT(lw_set_weight)(uint32_t client, uint32_t asset, float weight) {
+  client_of(client).set_weight(asset, weight);
 }
 
 void LW_EXPORT(lw_progress)(uint32_t client) {

@@ -47,26 +47,27 @@ double lw_wake(uint32_t client);
 /// while a batch of it is half taken: call again after lw_take.
 uint32_t lw_work(uint32_t client);
 // clang-format off
-/// The next update, of at most about `budget` bytes, 0 for none; apply them in the order in which they come.
+/// The next update, of at most about `budget` bytes, 0 for none; apply them in the order in which they come. `asset` is
+/// numbered as in asset/asset.h: today as the stream that the JSON extensions of the opening name.
 ///   1 opening:   [0] pointer, [1] length: a GLB for GLTFLoader
-///   2 mesh:      [0] stream, [1] vertices, [2] faces, [3] number of attributes, then a word for each:
+///   2 mesh:      [0] asset, [1] vertices, [2] faces, [3] number of attributes, then a word for each:
 ///                semantic (0 position, 1 normal, 2 texcoord_0, 3 texcoord_1, 4 color)
 ///                | component << 8 (0 i8, 1 u8, 2 i16, 3 u16, 4 f32)
 ///                | numbers a vertex << 16 | stride in bytes << 20 | normalized << 31
-///   3 range:     [0] stream, [1] buffer (an attribute of the mesh, or 255: indices), [2] offset in bytes,
+///   3 range:     [0] asset, [1] buffer (an attribute of the mesh, or 255: indices), [2] offset in bytes,
 ///                [3] pointer, [4] length
-///   4 draw:      [0] stream, [1] vertices, [2] faces: draw 3 * faces indices from now on
-///   5 light:     [0] stream, [1] width, [2] height, [3] depth, [4] nodes received, [5] pointer, [6] length: RGBA16F texels
-///   6 texture:   [0] stream, [1] format (0 PNG, 1 JPEG, 2 WebP), [2] width, [3] height, [4] pointer, [5] length:
+///   4 draw:      [0] asset, [1] vertices, [2] faces: draw 3 * faces indices from now on
+///   5 light:     [0] asset, [1] width, [2] height, [3] depth, [4] nodes received, [5] pointer, [6] length: RGBA16F texels
+///   6 texture:   [0] asset, [1] format (0 PNG, 1 JPEG, 2 WebP), [2] width, [3] height, [4] pointer, [5] length:
 ///                an image file
 ///   7 complete
 ///   8 failure:   [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
 // clang-format on
 uint32_t lw_take(uint32_t client, uint32_t budget);
 
-/// How much a stream of any kind matters to the present picture, 1 at first: what a run of its blocks is worth is the
-/// share of the stream's first error that it takes away, times this weight. Good from the opening update on.
-void lw_set_weight(uint32_t client, uint32_t stream, float weight);
+/// How much an asset of any kind matters to the present picture, 1 at first: what a run of its stream's blocks is worth
+/// is the share of the stream's first error that it takes away, times this weight. Good from the opening update on.
+void lw_set_weight(uint32_t client, uint32_t asset, float weight);
 /// Takes another strategy, numbered as for lw_create, from the next request on.
 void lw_set_strategy(uint32_t client, uint32_t strategy);
 

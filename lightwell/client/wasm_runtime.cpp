@@ -3,12 +3,14 @@
 #include <cstdlib>
 #include <new>
 
-// What the standard libraries do when all is lost, replaced by a trap: their own ways print a message, which would
+// Replaces what the standard libraries do when all is lost by a trap: their own ways print a message, which would
 // bring in printf and the only functions that the module would have to import.
 
 _LIBCPP_BEGIN_NAMESPACE_STD
 void __libcpp_verbose_abort(const char*, ...) { __builtin_trap(); }
 _LIBCPP_END_NAMESPACE_STD
+
+extern "C" void __cxa_pure_virtual() { __builtin_trap(); }
 
 extern "C" void abort() { __builtin_trap(); }
 

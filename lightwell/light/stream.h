@@ -15,11 +15,13 @@
 
 namespace lightwell {
 
-/// The codec number of what this header describes: records `moments` in the order of S08's slices.
+/// The codec number of this header's format: records of moments, sent in the order of slices of Pacanowski et al.,
+/// "Efficient Streaming of 3D Scenes with Complex Geometry and Complex Lighting", Web3D 2008 (S08), its streaming of
+/// lighting.
 inline constexpr uint8_t light_codec_slices = 0;
 
-/// Nodes that a byte of a stream may stand for at most, so that a decoder's memory is bounded by the stream's length:
-/// at 200 bytes a node. Encoders pad a payload that is shorter; estimated light takes several bytes a node.
+/// The most nodes that a byte of a stream may stand for. It bounds a decoder's memory, 200 bytes a node, by the
+/// stream's length. Encoders pad a payload that is shorter; estimated light takes several bytes a node.
 inline constexpr uint32_t light_nodes_per_byte = 4;
 
 /// The parameters of a light stream (docs/format.md): all that is known before the first bundle.
@@ -39,7 +41,7 @@ struct LightLayout {
   static Result<LightLayout> read(Bytes parameters);
 };
 
-/// Some nodes more: the payload of one block.
+/// A few more nodes of the grid: the payload of one block.
 struct LightBundle {
   std::vector<uint8_t> payload;
   uint32_t nodes = 0;
@@ -56,13 +58,13 @@ struct LightStreamOptions {
   uint64_t seed = 1;
 };
 
-/// The whole grid as a stream: the corners in the layout, then bundles with an equal number of nodes of every slice
-/// across the longest axis, at random places (S08). Shapes beyond LightLayout's limits are an error. Invalid nodes
-/// should have been filled.
+/// Encodes a whole grid: the corners in the layout, then bundles with an equal number of nodes of every slice across
+/// the longest axis, at random places (S08, streaming of lighting). Shapes beyond LightLayout's limits are an error.
+/// Invalid nodes should have been filled.
 Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions& options = {});
 
-/// Receives a light stream. After open and after every append the known nodes of grid() are final and the others dark:
-/// push_pull fills a copy of them. Any bytes give a state or an error.
+/// The decoder of a light stream. After open and after every append the known nodes of grid() are final and the others
+/// are dark; push_pull fills them in a copy. Any bytes give a state or an error.
 class LightDecoder {
  public:
   /// `stream_bytes` is the sum of all blocks' payloads, or more: parameters that promise more nodes than so many bytes

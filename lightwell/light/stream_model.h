@@ -14,18 +14,19 @@
 
 namespace lightwell {
 
-/// What encoder and decoder of a light stream share: the order of the nodes, their expectation from what is known, and
-/// the contexts of the coder. Integers only, so that native and WebAssembly agree to the bit.
+// Encoder and decoder of a light stream share the order of the nodes, their expectation from what is known, and the
+// contexts of the coder: integers only, so that native and WebAssembly agree to the bit.
 
-/// In which order nodes arrive after the corners. Derived from the seed: no position is ever sent.
+/// The order in which nodes arrive after the corners. It follows from the seed, so that no position is ever sent.
 struct LightOrder {
   std::vector<uint32_t> nodes;  ///< every node but the eight corners
   std::vector<uint32_t> ends;   ///< bundle k ends before nodes[ends[k]]
 };
 
-/// S08's stratified order: the grid is cut into slices across its longest axis (the first of several); every bundle
-/// holds nodes_per_slice nodes of each slice, as long as it has any left, at places drawn without replacement from
-/// Random(seed, slice).
+/// The stratified order of Pacanowski et al., "Efficient Streaming of 3D Scenes with Complex Geometry and Complex
+/// Lighting", Web3D 2008, its streaming of lighting: the grid is cut into slices across its longest axis (the first of
+/// several); every bundle holds nodes_per_slice nodes of each slice, as long as it has any left, at places drawn
+/// without replacement from Random(seed, slice).
 LightOrder light_order(const GridShape& shape, uint64_t seed, int nodes_per_slice);
 
 /// The eight corner nodes of a grid, x fastest.
@@ -89,7 +90,7 @@ class RecordCoder {
   void code(Coder& coder, MomentsRecord& record, const RecordField& field, size_t node);
 
  private:
-  // How large the residuals of a node have been lately, as a context: noise comes in patches.
+  // The size of a node's recent residuals, as a context: noise comes in patches.
   struct Recent {
     int magnitude = 8;
     size_t context() const { return std::min<size_t>(std::bit_width(static_cast<unsigned>(magnitude)), 7); }

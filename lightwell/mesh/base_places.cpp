@@ -43,6 +43,14 @@ Result<BasePlaces> BasePlaces::read(ByteReader& reader) {
   return places;
 }
 
+Result<MeshParameters> MeshParameters::read(Bytes parameters) {
+  ByteReader reader(parameters);
+  LW_TRY(layout, MeshLayout::read(reader));
+  LW_TRY(places, BasePlaces::read(reader));
+  if (reader.remaining() != 0) return fail("mesh parameters", "are too long");
+  return MeshParameters{layout, places};
+}
+
 Result<BaseArrays> BaseArrays::read(const MeshLayout& layout, const BasePlaces& places, Bytes bin) {
   const size_t count = layout.base_vertices;
   BaseArrays arrays;

@@ -20,7 +20,16 @@ struct BasePlaces {
   static Result<BasePlaces> read(ByteReader& reader);
 };
 
-/// The arrays themselves, copied out of the opening.
+/// The parameters of a mesh stream (docs/format.md): all that is known before its first block.
+struct MeshParameters {
+  MeshLayout layout;
+  BasePlaces places;
+
+  /// Errors: those of the two parts, and trailing bytes.
+  static Result<MeshParameters> read(Bytes parameters);
+};
+
+/// The arrays of a coarsest level, copied out of the opening.
 struct BaseArrays {
   std::vector<Vec3f> positions, normals;
   std::array<std::vector<Vec2f>, 2> texcoords;

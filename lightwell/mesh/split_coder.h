@@ -10,7 +10,9 @@
 
 namespace lightwell {
 
-/// Codes what a split adds, against a Refinement that both sides have. Models learn from block to block.
+/// The code of what a vertex split adds, predicted from a Refinement that encoder and decoder both have. The split is
+/// the one of Hoppe's progressive meshes ("Progressive Meshes", SIGGRAPH 1996, section 3.1); models learn from block to
+/// block. `coder` is a ModelWriter or a ModelReader (base/model_coder.h).
 class SplitCoder {
  public:
   template <typename Coder>

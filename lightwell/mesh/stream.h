@@ -16,9 +16,13 @@ namespace lightwell {
 
 struct ProgressiveMesh;
 
-/// Vertices and faces that a byte of a payload may stand for at most, so that a decoder's memory is bounded by the
-/// bytes that have arrived: at 64 bytes a vertex and 24 a face. Encoders pad a payload that is shorter; a flat grid of
-/// squares has 2.5, scans have 0.5.
+/// The codec number of this header's format: the vertex splits of a progressive mesh (H. Hoppe, "Progressive Meshes",
+/// SIGGRAPH 1996, sections 3.1 and 3.3), ordered by the points that they split, behind a coarsest level.
+inline constexpr uint8_t mesh_codec_splits = 0;
+
+/// The most vertices and faces that a byte of a payload may stand for. It bounds a decoder's memory, 64 bytes a vertex
+/// and 24 a face, by the bytes that have arrived. Encoders pad a payload that is shorter; a flat grid of squares
+/// has 2.5, scans have 0.5.
 inline constexpr uint32_t elements_per_byte = 4;
 
 /// What a client must know of a mesh stream before its first block: the stream's parameters in docs/format.md.
@@ -34,14 +38,14 @@ struct MeshLayout {
 
   /// Bytes of the final level's buffers as MeshDecoder has them.
   uint64_t buffer_bytes() const;
-  /// Says what is impossible about the counts and lattices, if anything is. No buffer may reach 4 GiB.
+  /// Fails when counts or lattices are impossible, and says which. No buffer may reach 4 GiB.
   Result<void> check() const;
   void write(ByteWriter& writer) const;
   /// Reads what write() wrote and checks it. Errors: too short, an unknown flag, check().
   static Result<MeshLayout> read(ByteReader& reader);
 };
 
-/// A part of the stream, decodable when all before it were.
+/// A block of the stream. It can be decoded once all blocks before it have been.
 struct MeshBlock {
   std::vector<uint8_t> payload;
   uint32_t vertices = 0;  ///< that it adds
@@ -81,8 +85,9 @@ struct MeshChanges {
   std::vector<BufferRange> rewired;  ///< indices of older faces; ascending, gaps of up to 256 indices included
 };
 
-/// Refines a mesh block by block in buffers that are ready for the GPU. They grow with what arrives: a layout that lies
-/// costs nothing. After every block the faces refer to vertices that are there: each level can be drawn.
+/// The decoder of a mesh stream: refines a mesh block by block in buffers that are ready for the GPU. The buffers grow
+/// with what arrives, so that a layout that lies costs nothing. After every block the faces refer to vertices that are
+/// there, so that each level can be drawn.
 class MeshDecoder {
  public:
   /// Fills in the coarsest level. `stream_bytes` is the sum of all blocks' payloads, or more: a layout that promises

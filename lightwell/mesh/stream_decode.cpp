@@ -9,10 +9,10 @@
 namespace lightwell {
 namespace {
 
-// So that the place of every byte in a buffer fits into 32 bits; a vertex' position and a face take 12 bytes each.
+// The limit keeps the place of every byte in a buffer below 2^32: a vertex's position and a face take 12 bytes each.
 constexpr uint32_t most_elements = 0xffffffff / 12;
-// Visits of all passes for each point that there is. An encoder's pass refines at least one point in 128, but for the
-// first.
+// The most visits of all passes together, for each point that there is. Every pass of an encoder but the first refines
+// at least one point in 128.
 constexpr uint64_t visits_per_point = 256;
 
 tl::unexpected<Error> corrupt(std::string_view reason) { return fail("mesh block", reason); }
@@ -65,7 +65,7 @@ struct MeshDecoder::State {
   Result<void> add_point(ModelReader& reader);
   Result<void> add_vertex(ModelReader& reader, uint32_t parent_point, bool begins_point);
   Result<void> add_loose_face(ModelReader& reader);
-  /// Takes vertices and faces from what the payload may add.
+  /// Takes some vertices and faces from the number that the payload may still add; fails when it has fewer left.
   Result<void> spend(size_t elements);
 
   Refinement mesh;

@@ -100,6 +100,7 @@ Result<PackStream> light_stream(const PackGrid& grid) {
 PackStream mesh_stream(StreamedMesh& mesh, const Json& json, const Json& primitive) {
   PackStream stream;
   stream.kind = StreamKind::mesh;
+  stream.codec = mesh_codec_splits;
   stream.error = mesh.encoded.layout.base_error;
   ByteWriter parameters;
   mesh.encoded.layout.write(parameters);
@@ -113,6 +114,7 @@ PackStream mesh_stream(StreamedMesh& mesh, const Json& json, const Json& primiti
 PackStream image_stream(const StreamedImage& image) {
   PackStream stream;
   stream.kind = StreamKind::texture;
+  stream.codec = texture_codec_file;
   stream.parameters = encode_texture_parameters(image.parameters);
   stream.error = 1;
   size_t left = image.file.size();

@@ -3,63 +3,65 @@
 
 #include <array>
 
+#include "lightwell/asset/light_asset.h"
+#include "lightwell/asset/mesh_asset.h"
+#include "lightwell/asset/texture_asset.h"
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/gltf/parsed_document.h"
-#include "lightwell/light/stream.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/lamps_extension.h"
-#include "lightwell/texture/stream.h"
 
 namespace lightwell {
 namespace {
 
-bool fine_enough(const MeshDecoder& decoder, float error, const MeshLevel& level) {
-  const auto wanted = static_cast<double>(level.share) * decoder.layout().faces;
-  return decoder.complete() || (decoder.faces() >= wanted && (level.error < 0 || error <= level.error));
+bool fine_enough(const MeshAsset& mesh, float error, const MeshLevel& level) {
+  const auto wanted = static_cast<double>(level.share) * mesh.layout().faces;
+  return mesh.complete() || (mesh.buffers().faces >= wanted && (level.error < 0 || error <= level.error));
 }
 
-Mesh mesh_of(const MeshDecoder& decoder) {
+Mesh mesh_of(const MeshBuffers& buffers) {
   Mesh mesh;
-  const size_t count = decoder.vertices();
-  const auto positions = decoder.positions().first(count);
+  const size_t count = buffers.vertices;
+  const auto positions = buffers.positions.first(count);
   mesh.positions.assign(positions.begin(), positions.end());
-  for (const Normal16& n : decoder.normals().first(std::min(count, decoder.normals().size())))
+  for (const Normal16& n : buffers.normals.first(std::min(count, buffers.normals.size())))
     mesh.normals.push_back(normalized(Vec3f{{float(n[0]), float(n[1]), float(n[2])}}));
-  for (int set = 0; set < 2; set++) {
-    const auto texcoords = decoder.texcoords(set);
+  for (size_t set = 0; set < 2; set++) {
+    const auto texcoords = buffers.texcoords[set];
     if (!texcoords.empty())
-      mesh.texcoords[static_cast<size_t>(set)].assign(texcoords.begin(),
-                                                      texcoords.begin() + static_cast<ptrdiff_t>(count));
+      mesh.texcoords[set].assign(texcoords.begin(), texcoords.begin() + static_cast<ptrdiff_t>(count));
   }
-  for (const Color16& c : decoder.colors().first(std::min(count, decoder.colors().size())))
+  for (const Color16& c : buffers.colors.first(std::min(count, buffers.colors.size())))
     mesh.colors.push_back(color_of(c));
-  const auto indices = decoder.indices().first(size_t(3) * decoder.faces());
+  const auto indices = buffers.indices.first(size_t(3) * buffers.faces);
   for (size_t i = 0; i < indices.size(); i += 3) mesh.faces.push_back({indices[i], indices[i + 1], indices[i + 2]});
   return mesh;
 }
 
-Result<Mesh> unpack_mesh(const PackReader& pack, size_t stream, const MeshLevel& level) {
-  const StreamEntry& entry = pack.directory().streams[stream];
-  LW_TRY(decoder, open_mesh_stream(pack, entry));
-  float error = entry.error;
-  for (uint32_t block = 0; block < entry.blocks && !fine_enough(decoder, error, level); block++) {
+// Appends a stream's blocks while wanted(block) says so.
+template <typename Wanted>
+Result<void> append_blocks(const PackReader& pack, size_t stream, AssetDecoder& decoder, const Wanted& wanted) {
+  for (uint32_t block = 0; block < pack.directory().streams[stream].blocks && wanted(block); block++) {
     LW_TRY(payload, pack.block(stream, block));
     LW_CHECK(decoder.append(payload));
-    error = pack.rows(stream)[block].error;
   }
-  return mesh_of(decoder);
+  return {};
+}
+
+Result<Mesh> unpack_mesh(const PackReader& pack, size_t stream, const MeshLevel& level) {
+  LW_TRY(mesh, open_asset_as<MeshAsset>(pack, stream));
+  LW_CHECK(append_blocks(pack, stream, *mesh, [&](uint32_t block) {
+    const float error = block == 0 ? pack.directory().streams[stream].error : pack.rows(stream)[block - 1].error;
+    return !fine_enough(*mesh, error, level);
+  }));
+  return mesh_of(mesh->buffers());
 }
 
 Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream) {
-  const StreamEntry& entry = pack.directory().streams[stream];
-  LW_TRY(parameters, decode_texture_parameters(entry.parameters));
-  TextureDecoder decoder(parameters);
-  for (uint32_t block = 0; block < entry.blocks; block++) {
-    LW_TRY(payload, pack.block(stream, block));
-    LW_CHECK(decoder.append(payload));
-  }
-  if (!decoder.complete()) return fail("stream " + std::to_string(stream), "the image is not complete");
-  return decoder.file();
+  LW_TRY(image, open_asset_as<TextureAsset>(pack, stream));
+  LW_CHECK(append_blocks(pack, stream, *image, [](uint32_t) { return true; }));
+  if (!image->complete()) return fail("stream " + std::to_string(stream), "the image is not complete");
+  return image->file();
 }
 
 Result<void> refine_meshes(Document& document, const PackRefinement& refinement) {
@@ -106,14 +108,6 @@ void drop_extensions(Json& json) {
 
 }  // namespace
 
-Result<MeshDecoder> open_mesh_stream(const PackReader& pack, const StreamEntry& entry) {
-  ByteReader parameters(entry.parameters);
-  LW_TRY(layout, MeshLayout::read(parameters));
-  LW_TRY(places, BasePlaces::read(parameters));
-  LW_TRY(base, BaseArrays::read(layout, places, glb_chunks(pack.opening()).bin));
-  return MeshDecoder::open(layout, base.view(), entry.length);
-}
-
 Result<void> refine_document(Document& document, const PackRefinement& refinement) {
   LW_CHECK(refine_meshes(document, refinement));
   LW_CHECK(complete_images(document, refinement));
@@ -132,17 +126,14 @@ Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level,
 }
 
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level) {
-  const StreamEntry& entry = pack.directory().streams[stream];
-  LW_TRY(decoder, LightDecoder::open(entry.parameters, entry.length));
-  const double wanted = static_cast<double>(level.share) * static_cast<double>(decoder.grid().shape.count());
-  for (uint32_t block = 0; block < entry.blocks && static_cast<double>(decoder.received()) < wanted; block++) {
-    LW_TRY(payload, pack.block(stream, block));
-    LW_CHECK(decoder.append(payload));
-  }
-  if (level.share >= 1 && !decoder.complete())
+  LW_TRY(light, open_asset_as<LightAsset>(pack, stream));
+  const double wanted = static_cast<double>(level.share) * static_cast<double>(light->total());
+  LW_CHECK(
+      append_blocks(pack, stream, *light, [&](uint32_t) { return static_cast<double>(light->received()) < wanted; }));
+  if (level.share >= 1 && !light->complete())
     return fail("stream " + std::to_string(stream), "the light grid is not complete");
-  LightGrid grid = decoder.grid();
-  push_pull(grid, decoder.known(), level.fill);
+  LightGrid grid = light->grid();
+  push_pull(grid, light->known(), level.fill);
   return grid;
 }
 

@@ -3,9 +3,11 @@
 
 #include <functional>
 
+#include "lightwell/asset/codecs.h"
 #include "lightwell/gltf/document.h"
 #include "lightwell/light/push_pull.h"
-#include "lightwell/mesh/base_places.h"
+#include "lightwell/mesh/mesh.h"
+#include "lightwell/pack/opening.h"
 #include "lightwell/packing/opened_pack.h"
 
 namespace lightwell {
@@ -17,8 +19,12 @@ struct MeshLevel {
   float error = -1;
 };
 
-/// The decoder of a mesh stream of a pack, at its coarsest level. Fails when stream and BIN chunk do not fit.
-Result<MeshDecoder> open_mesh_stream(const PackReader& pack, const StreamEntry& entry);
+/// The decoder of a stream that has to be of a kind (asset/codecs.h), alone in the memory that a client gives to all.
+template <typename Kind>
+Result<std::unique_ptr<Kind>> open_asset_as(const PackReader& pack, size_t stream) {
+  AssetContext context{.bin = glb_chunks(pack.opening()).bin};
+  return open_asset_as<Kind>(pack.directory(), stream, context);
+}
 
 /// Where the finer levels of an opening come from, by stream.
 struct PackRefinement {

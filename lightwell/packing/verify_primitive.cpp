@@ -93,11 +93,9 @@ Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& re
   const Json& json = pack.json();
   const Json& primitive =
       element(member(element(member(json, "meshes"), refined.mesh), "primitives"), refined.primitive);
-  ByteReader parameters(pack.reader().directory().streams[refined.stream].parameters);
-  LW_TRY(layout, MeshLayout::read(parameters));
-  LW_TRY(places, BasePlaces::read(parameters));
-  if (parameters.remaining() > 0)
-    return fail("stream " + std::to_string(refined.stream), "its parameters are too long");
+  LW_TRY(parameters, MeshParameters::read(pack.reader().directory().streams[refined.stream].parameters));
+  const MeshLayout& layout = parameters.layout;
+  const BasePlaces& places = parameters.places;
   LW_TRY(base, BaseArrays::read(layout, places, pack.bin()));
   if (refined.vertices != layout.vertices || refined.faces != layout.faces || refined.error != layout.base_error)
     return fail(name + "." + mesh_extension, "differs from what its stream says");

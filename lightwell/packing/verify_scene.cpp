@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/verify_scene.h"
 
-#include "lightwell/mesh/stream.h"
+#include "lightwell/mesh/base_places.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/scene/import_gltf.h"
 
@@ -29,9 +29,8 @@ Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
       if (primitive.source_mesh != static_cast<int>(refined.mesh) ||
           primitive.source_primitive != static_cast<int>(refined.primitive))
         continue;
-      ByteReader parameters(pack.reader().directory().streams[refined.stream].parameters);
-      LW_TRY(layout, MeshLayout::read(parameters));
-      if (!holds(refined.bounds, primitive.mesh, layout.positions.step()))
+      LW_TRY(parameters, MeshParameters::read(pack.reader().directory().streams[refined.stream].parameters));
+      if (!holds(refined.bounds, primitive.mesh, parameters.layout.positions.step()))
         return fail(element_name("meshes", refined.mesh) + "." + element_name("primitives", refined.primitive),
                     "the bounds in " + std::string(mesh_extension) + " do not hold its final level");
     }

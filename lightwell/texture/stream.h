@@ -10,6 +10,9 @@
 
 namespace lightwell {
 
+/// The codec number of this header's format: an image file as it is.
+inline constexpr uint8_t texture_codec_file = 0;
+
 /// A texture stream carries an image file as it is, cut into blocks of this many bytes; the last may be shorter.
 constexpr size_t texture_block_bytes = 32768;
 

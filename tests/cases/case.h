@@ -9,10 +9,11 @@
 namespace lightwell {
 
 /// The room that a case is for.
-enum class Room : uint8_t { base, light, mesh, texture, pack };
+enum class Room : uint8_t { base, light, mesh, texture, pack, asset };
 
 /// What one room is fed with, in the order in which a client would come by it: a stream's parameters (and for a mesh
-/// the BIN chunk of the opening), then its payloads; a whole file for pack; any bytes for base.
+/// the BIN chunk of the opening), then its payloads; a whole file for pack; any bytes for base. For asset see
+/// tests/asset/asset_case.h.
 struct Case {
   Room room = Room::base;
   std::vector<std::vector<uint8_t>> parts;

@@ -22,21 +22,19 @@ constexpr double latency = 0.01;
 struct Print {
   void operator()(const OpeningUpdate& u) { std::printf("1 %u\n", crc32c(u.glb)); }
   void operator()(const MeshUpdate& u) {
-    std::printf("2 %u %u %u %zu", u.stream, u.vertices, u.faces, u.attributes.size());
+    std::printf("2 %u %u %u %zu", u.asset, u.vertices, u.faces, u.attributes.size());
     for (const AttributeLayout& a : u.attributes)
       std::printf(" %d,%d,%d,%d,%d", static_cast<int>(a.semantic), static_cast<int>(a.component), a.components,
                   a.stride, a.normalized);
     std::printf("\n");
   }
-  void operator()(const RangeUpdate& u) {
-    std::printf("3 %u %u %u %u\n", u.stream, u.buffer, u.offset, crc32c(u.data));
-  }
-  void operator()(const DrawUpdate& u) { std::printf("4 %u %u %u\n", u.stream, u.vertices, u.faces); }
+  void operator()(const RangeUpdate& u) { std::printf("3 %u %u %u %u\n", u.asset, u.buffer, u.offset, crc32c(u.data)); }
+  void operator()(const DrawUpdate& u) { std::printf("4 %u %u %u\n", u.asset, u.vertices, u.faces); }
   void operator()(const LightUpdate& u) {
-    std::printf("5 %u %u %u %u %u %u\n", u.stream, u.width, u.height, u.depth, u.nodes, crc32c(u.atlas));
+    std::printf("5 %u %u %u %u %u %u\n", u.asset, u.width, u.height, u.depth, u.nodes, crc32c(u.atlas));
   }
   void operator()(const TextureUpdate& u) {
-    std::printf("6 %u %u %u %u %u\n", u.stream, u.format, u.width, u.height, crc32c(u.file));
+    std::printf("6 %u %u %u %u %u\n", u.asset, u.format, u.width, u.height, crc32c(u.file));
   }
   void operator()(const CompleteUpdate&) { std::printf("7\n"); }
   void operator()(const FailureUpdate& u) { std::printf("8 %d %s\n", static_cast<int>(u.reason), u.message.c_str()); }

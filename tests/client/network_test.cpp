@@ -184,14 +184,8 @@ TEST(Network, IncompleteStreamIsNamed) {
   for (size_t cut = 0; cut < entries.size(); cut++)
     for (const bool all : {false, true}) {
       if (entries[cut].blocks == 0) continue;  // the walls are complete from the start
-      std::vector<PackStream> streams;
-      for (size_t i = 0; i < entries.size(); i++) {
-        streams.push_back({entries[i].kind, entries[i].codec, entries[i].error, entries[i].parameters, {}});
-        const uint32_t left = i != cut ? entries[i].blocks : all ? 0 : entries[i].blocks - 1;
-        for (uint32_t block = 0; block < left; block++)
-          streams[i].blocks.push_back(
-              {reader.block(i, block).value(), reader.rows(i)[block].adds, reader.rows(i)[block].error});
-      }
+      std::vector<PackStream> streams = streams_of(reader);
+      streams[cut].blocks.resize(all ? 0 : entries[cut].blocks - 1);
       const Bytes bin = glb_chunks(reader.opening()).bin;
       const std::vector<uint8_t> file = make_pack({bin.begin(), bin.end()}, std::move(streams));
       SimulatedNetwork network({}, 1, file);
@@ -199,6 +193,20 @@ TEST(Network, IncompleteStreamIsNamed) {
       EXPECT_FALSE(scene.complete);
       EXPECT_NE(scene.failure.find("stream " + std::to_string(cut)), std::string::npos) << scene.failure;
     }
+}
+
+TEST(Network, UnknownCodecIsNamed) {
+  const PackReader reader = PackReader::open(from_memory(sample().file), sample().file.size()).value();
+  for (size_t stream = 0; stream < reader.directory().streams.size(); stream++) {
+    const std::vector<uint8_t> file = with_codec(reader, stream, 7);
+    SimulatedNetwork network({}, 1, file);
+    const ReceivedScene scene = network.run({});
+    EXPECT_EQ(scene.failure, "stream " + std::to_string(stream) + ": codec: the " +
+                                 to_text(reader.directory().streams[stream].kind) +
+                                 " codec 7 is not known to this program");
+    EXPECT_EQ(scene.reason, Reason::unreadable);
+    EXPECT_FALSE(scene.complete);
+  }
 }
 
 TEST(Network, FileIsReplaced) {

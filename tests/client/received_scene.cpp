@@ -5,6 +5,7 @@
 #include <cstring>
 #include <span>
 
+#include "lightwell/asset/asset.h"
 #include "lightwell/base/assert.h"
 #include "lightwell/light/atlas.h"
 #include "lightwell/light/push_pull.h"
@@ -36,7 +37,7 @@ struct Apply {
   }
   std::string operator()(const MeshUpdate& update) {
     if (scene.opening.empty()) return "a mesh came before the opening";
-    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
+    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.asset];
     for (const AttributeLayout& attribute : update.attributes) {
       mesh.buffers.emplace_back(size_t(update.vertices) * attribute.stride);
       mesh.strides.push_back(attribute.stride);
@@ -46,7 +47,7 @@ struct Apply {
     return {};
   }
   std::string operator()(const RangeUpdate& update) {
-    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
+    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.asset];
     const size_t number = update.buffer == RangeUpdate::indices ? mesh.buffers.size() - 1 : update.buffer;
     if (number >= mesh.buffers.size()) return "a range of an unknown buffer";
     std::vector<uint8_t>& buffer = mesh.buffers[number];
@@ -58,7 +59,7 @@ struct Apply {
     return check_corners(mesh, update.offset / 4, (update.offset + update.data.size()) / 4);
   }
   std::string operator()(const DrawUpdate& update) {
-    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.stream];
+    ReceivedScene::ReceivedMesh& mesh = scene.meshes[update.asset];
     if (update.faces < mesh.faces || update.vertices < mesh.vertices) return "a mesh has become coarser";
     const size_t drawn = mesh.faces;
     mesh.vertices = update.vertices;
@@ -69,11 +70,11 @@ struct Apply {
     if (update.atlas.size() != size_t(update.width) * update.height * update.depth * 8)
       return "an atlas of another size";
     if (update.nodes < 8) return "light without the opening's";
-    scene.atlases[update.stream] = copy(update.atlas);
+    scene.atlases[update.asset] = copy(update.atlas);
     return {};
   }
   std::string operator()(const TextureUpdate& update) {
-    scene.textures[update.stream] = copy(update.file);
+    scene.textures[update.asset] = copy(update.file);
     return {};
   }
   std::string operator()(const CompleteUpdate&) {
@@ -126,9 +127,7 @@ void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream) {
 
 MeshDecoder open_mesh(const PackReader& reader, uint32_t stream) {
   const StreamEntry& entry = reader.directory().streams[stream];
-  ByteReader parameters(entry.parameters);
-  const MeshLayout layout = MeshLayout::read(parameters).value();
-  const BasePlaces places = BasePlaces::read(parameters).value();
+  const auto [layout, places] = MeshParameters::read(entry.parameters).value();
   const BaseArrays base = BaseArrays::read(layout, places, glb_chunks(reader.opening()).bin).value();
   return std::move(MeshDecoder::open(layout, base.view(), entry.length).value());
 }
@@ -218,9 +217,9 @@ ReceivedScene decode_directly(Bytes pack) {
   scene.opening = reader.opening();
   for (uint32_t stream = 0; stream < reader.directory().streams.size(); stream++) {
     switch (reader.directory().streams[stream].kind) {
-      case StreamKind::mesh: scene.meshes[stream] = decode_mesh(reader, stream); break;
-      case StreamKind::light: scene.atlases[stream] = decode_light(reader, stream); break;
-      case StreamKind::texture: scene.textures[stream] = decode_texture(reader, stream); break;
+      case StreamKind::mesh: scene.meshes[asset_of_stream(stream)] = decode_mesh(reader, stream); break;
+      case StreamKind::light: scene.atlases[asset_of_stream(stream)] = decode_light(reader, stream); break;
+      case StreamKind::texture: scene.textures[asset_of_stream(stream)] = decode_texture(reader, stream); break;
     }
   }
   scene.complete = true;
@@ -235,7 +234,8 @@ OnTheWay on_the_way(Bytes pack) {
     if (entry.kind == StreamKind::mesh) {
       MeshDecoder decoder = open_mesh(reader, stream);
       const auto add = [&] {
-        way.levels[stream].push_back({decoder.vertices(), {decoder.indices().begin(), decoder.indices().end()}});
+        way.levels[asset_of_stream(stream)].push_back(
+            {decoder.vertices(), {decoder.indices().begin(), decoder.indices().end()}});
       };
       add();
       append_all(decoder, reader, stream, add);

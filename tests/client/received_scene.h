@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lightwell/base/bytes.h"
-#include "lightwell/client/update.h"
+#include "lightwell/asset/update.h"
 
 namespace lightwell {
 

@@ -187,7 +187,7 @@ std::string add_mesh(const Mesh& mesh, bool textured, size_t stream_number, Open
   ByteWriter parameters;
   encoded.layout.write(parameters);
   places.write(parameters);
-  stream = {StreamKind::mesh, 0, encoded.layout.base_error, parameters.release(), {}};
+  stream = {StreamKind::mesh, mesh_codec_splits, encoded.layout.base_error, parameters.release(), {}};
   for (MeshBlock& block : encoded.blocks)
     stream.blocks.push_back({std::move(block.payload), block.vertices, block.error});
   const Box3f all = mesh.bounds();
@@ -211,7 +211,7 @@ PackStream light_stream(const LightGrid& grid) {
 PackStream texture_stream(const std::vector<uint8_t>& image, const Image& size) {
   const TextureParameters parameters{static_cast<uint32_t>(image.size()), ImageFormat::png,
                                      static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height)};
-  PackStream stream{StreamKind::texture, 0, wall_error, encode_texture_parameters(parameters), {}};
+  PackStream stream{StreamKind::texture, texture_codec_file, wall_error, encode_texture_parameters(parameters), {}};
   const std::vector<Bytes> blocks = texture_blocks(image);
   for (size_t i = 0; i < blocks.size(); i++)
     stream.blocks.push_back({{blocks[i].begin(), blocks[i].end()},

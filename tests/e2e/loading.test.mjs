@@ -161,7 +161,7 @@ test('an image that the browser cannot read is said, and the rest comes', async 
   await complete(page);
   const [{ reason, message }] = await failures(page, 1);
   assert.equal(reason, 'unreadable');
-  assert.match(message, /image of stream \d+ .*no such format/);
+  assert.match(message, /image of asset \d+ .*no such format/);
 });
 
 test('an update that does not fit the opening ends the stream in words', async (t) => {
@@ -170,7 +170,7 @@ test('an update that does not fit the opening ends the stream in words', async (
   await page.evaluate(() => {
     const { pack } = document.querySelector('lightwell-view');
     const [{ definition }] = pack.grids;
-    pack.receive({ type: 'light', stream: definition.stream, width: 1, height: 1, depth: 1, atlas: new Uint16Array(4) });
+    pack.receive({ type: 'light', asset: definition.stream, width: 1, height: 1, depth: 1, atlas: new Uint16Array(4) });
   });
   const [{ reason, message }] = await failures(page, 1);
   assert.equal(reason, 'unreadable');

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightwell/base/random.h"
+#include "lightwell/pack/opening.h"
 #include "lightwell/pack/reader.h"
 #include "lightwell/pack/writer.h"
 
@@ -42,6 +43,28 @@ inline std::vector<PackStream> random_streams(uint64_t seed) {
 inline std::vector<uint8_t> make_pack(std::vector<uint8_t> bin, std::vector<PackStream> streams,
                                       std::string text = "{\"asset\":{}}") {
   return PackWriter::create(std::move(bin), std::move(streams)).value().finish(std::move(text)).value();
+}
+
+/// The streams of a pack as a writer takes them.
+inline std::vector<PackStream> streams_of(const PackReader& reader) {
+  std::vector<PackStream> streams;
+  for (size_t i = 0; i < reader.directory().streams.size(); i++) {
+    const StreamEntry& entry = reader.directory().streams[i];
+    streams.push_back({entry.kind, entry.codec, entry.error, entry.parameters, {}});
+    for (uint32_t block = 0; block < entry.blocks; block++)
+      streams[i].blocks.push_back(
+          {reader.block(i, block).value(), reader.rows(i)[block].adds, reader.rows(i)[block].error});
+  }
+  return streams;
+}
+
+/// The pack with another codec number of one stream: its checks are right, and nothing else is changed.
+inline std::vector<uint8_t> with_codec(const PackReader& reader, size_t stream, uint8_t codec) {
+  std::vector<PackStream> streams = streams_of(reader);
+  streams[stream].codec = codec;
+  const GlbChunks chunks = glb_chunks(reader.opening());
+  return make_pack({chunks.bin.begin(), chunks.bin.end()}, std::move(streams),
+                   {chunks.json.begin(), chunks.json.end()});
 }
 
 /// Reads from bytes in memory, which must outlive it.

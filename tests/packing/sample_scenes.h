@@ -13,6 +13,7 @@
 #include "lightwell/packing/pack_scene.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/texture/image_file.h"
+#include "tests/pack/pack_samples.h"
 
 namespace lightwell {
 
@@ -56,30 +57,11 @@ inline Packed pack(Document document, const std::vector<ClientLamp>& lamps = {})
 
 /// `file` must outlive what is opened.
 inline Result<OpenedPack> try_open(const std::vector<uint8_t>& file) {
-  LW_TRY(reader, PackReader::open(
-                     [&file](uint64_t first, uint64_t length) -> Result<std::vector<uint8_t>> {
-                       if (first + length > file.size()) return fail("", "beyond the end");
-                       return std::vector<uint8_t>(file.begin() + static_cast<ptrdiff_t>(first),
-                                                   file.begin() + static_cast<ptrdiff_t>(first + length));
-                     },
-                     file.size()));
+  LW_TRY(reader, PackReader::open(from_memory(file), file.size()));
   return OpenedPack::open(std::move(reader));
 }
 
 inline OpenedPack open(const std::vector<uint8_t>& file) { return try_open(file).value(); }
-
-/// The streams of a pack, to be written again.
-inline std::vector<PackStream> streams_of(const PackReader& reader) {
-  std::vector<PackStream> streams;
-  for (size_t i = 0; i < reader.directory().streams.size(); i++) {
-    const StreamEntry& entry = reader.directory().streams[i];
-    streams.push_back({entry.kind, entry.codec, entry.error, entry.parameters, {}});
-    for (uint32_t block = 0; block < entry.blocks; block++)
-      streams[i].blocks.push_back(
-          {reader.block(i, block).value(), reader.rows(i)[block].adds, reader.rows(i)[block].error});
-  }
-  return streams;
-}
 
 /// A pack of that JSON and those streams with all checks right, and the opening's BIN as it was. The id covers neither
 /// JSON nor parameters, so it stays.

@@ -88,18 +88,18 @@ struct Received {
 
   void apply(const Update& update) {
     if (const auto* mesh = std::get_if<MeshUpdate>(&update)) {
-      meshes[mesh->stream].positions.resize(size_t(12) * mesh->vertices);
-      meshes[mesh->stream].indices.resize(size_t(12) * mesh->faces);
+      meshes[mesh->asset].positions.resize(size_t(12) * mesh->vertices);
+      meshes[mesh->asset].indices.resize(size_t(12) * mesh->faces);
     } else if (const auto* range = std::get_if<RangeUpdate>(&update)) {
       if (range->buffer != 0 && range->buffer != RangeUpdate::indices) return;
-      auto& buffers = meshes[range->stream];
+      auto& buffers = meshes[range->asset];
       auto& target = range->buffer == 0 ? buffers.positions : buffers.indices;
       std::copy(range->data.begin(), range->data.end(), target.begin() + static_cast<ptrdiff_t>(range->offset));
     } else if (const auto* draw = std::get_if<DrawUpdate>(&update)) {
-      meshes[draw->stream].vertices = draw->vertices;
-      meshes[draw->stream].faces = draw->faces;
+      meshes[draw->asset].vertices = draw->vertices;
+      meshes[draw->asset].faces = draw->faces;
     } else if (const auto* image = std::get_if<TextureUpdate>(&update)) {
-      images[image->stream].assign(image->file.begin(), image->file.end());
+      images[image->asset].assign(image->file.begin(), image->file.end());
     } else if (std::get_if<LightUpdate>(&update)) {
       grids++;
     }

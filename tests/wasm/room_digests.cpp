@@ -19,6 +19,7 @@
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
 #include "lightwell/texture/stream.h"
+#include "tests/asset/asset_case.h"
 #include "tests/cases/case.h"
 
 using namespace lightwell;
@@ -166,16 +167,13 @@ void shade(const MeshDecoder& decoder, Digest& digest) {
 }
 
 void mesh(const Case& one, Digest& digest) {
-  ByteReader reader(one.parts[0]);
-  const auto layout = MeshLayout::read(reader);
-  if (!layout) return digest.add(layout.error());
-  const auto places = BasePlaces::read(reader);
-  if (!places) return digest.add(places.error());
-  const auto base = BaseArrays::read(*layout, *places, one.parts[1]);
+  const auto parameters = MeshParameters::read(one.parts[0]);
+  if (!parameters) return digest.add(parameters.error());
+  const auto base = BaseArrays::read(parameters->layout, parameters->places, one.parts[1]);
   if (!base) return digest.add(base.error());
   uint64_t stream_bytes = 0;
   for (size_t i = 2; i < one.parts.size(); i++) stream_bytes += one.parts[i].size();
-  auto decoder = MeshDecoder::open(*layout, base->view(), stream_bytes);
+  auto decoder = MeshDecoder::open(parameters->layout, base->view(), stream_bytes);
   if (!decoder) return digest.add(decoder.error());
   add_mesh(*decoder, digest);
   for (size_t i = 2; i < one.parts.size(); i++) {
@@ -233,6 +231,46 @@ void pack(const Case& one, Digest& digest) {
   for (const StreamEntry& entry : directory->streams) read_stream(entry, directory->id, file, opening_length, digest);
 }
 
+void add_update(const Update& update, Digest& digest) {
+  digest.add(static_cast<uint32_t>(update.index()));
+  if (const auto* mesh = std::get_if<MeshUpdate>(&update)) {
+    digest.add(mesh->asset);
+    digest.add(mesh->vertices);
+    digest.add(mesh->faces);
+    digest.add(mesh->attributes);
+  } else if (const auto* range = std::get_if<RangeUpdate>(&update)) {
+    digest.add(range->buffer);
+    digest.add(range->offset);
+    digest.add(range->data);
+  } else if (const auto* draw = std::get_if<DrawUpdate>(&update)) {
+    digest.add(draw->vertices);
+    digest.add(draw->faces);
+  } else if (const auto* light = std::get_if<LightUpdate>(&update)) {
+    digest.add(light->nodes);
+    digest.add(light->atlas);
+  } else if (const auto* image = std::get_if<TextureUpdate>(&update)) {
+    digest.add(image->format);
+    digest.add(image->file);
+  }
+}
+
+/// A stream by the table of codecs, and its updates after every block.
+void asset(const Case& one, Digest& digest) {
+  AssetContext context{.bin = one.parts[2], .fill = Fill::push_pull};
+  auto opened = open_asset(directory_of(one), 0, context);
+  digest.add(static_cast<uint32_t>(context.budget));
+  if (!opened) return digest.add(opened.error());
+  AssetDecoder& decoder = **opened;
+  if (const auto update = decoder.announce()) add_update(*update, digest);
+  for (size_t i = 3; i < one.parts.size(); i++) {
+    if (const auto appended = decoder.append(one.parts[i]); !appended) digest.add(appended.error());
+    digest.add(static_cast<uint32_t>(decoder.added()));
+    digest.add(decoder.complete());
+    decoder.settle();
+    while (const auto update = decoder.take(1000)) add_update(*update, digest);
+  }
+}
+
 std::vector<uint8_t> standard_input() {
   std::vector<uint8_t> all, piece(65536);
   while (const size_t length = std::fread(piece.data(), 1, piece.size(), stdin))
@@ -247,8 +285,8 @@ int main() {
     const char* name;
     void (*work)(const Case&, Digest&);
   };
-  constexpr NamedRoom rooms[] = {
-      {"base", base}, {"light", light}, {"mesh", mesh}, {"texture", texture}, {"pack", pack}};
+  constexpr NamedRoom rooms[] = {{"base", base},       {"light", light}, {"mesh", mesh},
+                                 {"texture", texture}, {"pack", pack},   {"asset", asset}};
   const std::vector<uint8_t> input = standard_input();
   for (ByteReader reader(input); reader.remaining() > 0;) {
     const Case one = read_case(reader);

@@ -46,8 +46,8 @@ export class PackConnection {
     this.#send({ type: 'resume' });
   }
 
-  /** How much streams matter to the present picture; 0 puts one last. */
-  setWeights(weights: [stream: number, weight: number][]): void {
+  /** How much assets matter to the present picture; 0 puts one last. */
+  setWeights(weights: [asset: number, weight: number][]): void {
     this.#send({ type: 'weights', weights });
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the page and the worker say to each other. Buffers are transferred, never copied.
+// What the page and the worker say to each other. Buffers are transferred, never copied. An asset is a mesh, a light grid or an
+// image, numbered as lightwell/asset/asset.h says.
 
 /** Which stream goes first: the whole geometry, the whole light, or whatever lessens the error in the picture most. */
 export type Strategy = 'interleave' | 'geometry' | 'light';
@@ -9,8 +10,8 @@ export type Strategy = 'interleave' | 'geometry' | 'light';
 export type Command =
   | { type: 'open'; url: string; wasm: string; strategy: Strategy }
   | { type: 'strategy'; strategy: Strategy }
-  /** How much each stream matters to the present picture; the unit is of no account, 0 puts a stream last. */
-  | { type: 'weights'; weights: [stream: number, weight: number][] }
+  /** How much each asset matters to the present picture; the unit is of no account, 0 puts an asset last. */
+  | { type: 'weights'; weights: [asset: number, weight: number][] }
   | { type: 'pause' }
   | { type: 'resume' }
   /** So many bytes of updates have reached the GPU: the worker may send as many more. */
@@ -39,7 +40,7 @@ export interface AttributeLayout {
 /** A mesh's buffers in their final sizes; comes before any other update of the mesh. */
 export interface MeshEvent {
   type: 'mesh';
-  stream: number;
+  asset: number;
   vertices: number;
   /** Three 32-bit indices each. */
   faces: number;
@@ -52,7 +53,7 @@ export const INDICES = 255;
 /** New bytes of one of a mesh's buffers: an attribute's place in the layout, or INDICES. */
 export interface RangeEvent {
   type: 'range';
-  stream: number;
+  asset: number;
   buffer: number;
   /** In bytes, from the start of the buffer. */
   offset: number;
@@ -62,7 +63,7 @@ export interface RangeEvent {
 /** The mesh may be drawn with so many faces: comes behind the ranges that make it so. */
 export interface DrawEvent {
   type: 'draw';
-  stream: number;
+  asset: number;
   vertices: number;
   faces: number;
 }
@@ -70,7 +71,7 @@ export interface DrawEvent {
 /** A light grid as a whole: the half-float RGBA texels of a 3D texture. */
 export interface LightEvent {
   type: 'light';
-  stream: number;
+  asset: number;
   width: number;
   height: number;
   depth: number;
@@ -80,7 +81,7 @@ export interface LightEvent {
 /** An image file, complete. */
 export interface TextureEvent {
   type: 'texture';
-  stream: number;
+  asset: number;
   mimeType: string;
   file: ArrayBuffer;
 }

@@ -87,7 +87,7 @@ export class PackSession {
         client.setStrategy(command.strategy);
         break;
       case 'weights':
-        for (const [stream, weight] of command.weights) client.setWeight(stream, weight);
+        for (const [asset, weight] of command.weights) client.setWeight(asset, weight);
         break;
       case 'pause':
         this.#paused = true;

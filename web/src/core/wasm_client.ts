@@ -17,7 +17,7 @@ interface Exports {
   lw_work(client: number): number;
   lw_take(client: number, budget: number): number;
   lw_set_strategy(client: number, strategy: number): void;
-  lw_set_weight(client: number, stream: number, weight: number): void;
+  lw_set_weight(client: number, asset: number, weight: number): void;
   lw_progress(client: number): void;
 }
 
@@ -101,8 +101,8 @@ export class WasmClient {
     this.#wasm.lw_set_strategy(this.#handle, STRATEGIES.indexOf(strategy));
   }
 
-  setWeight(stream: number, weight: number): void {
-    this.#wasm.lw_set_weight(this.#handle, stream, weight);
+  setWeight(asset: number, weight: number): void {
+    this.#wasm.lw_set_weight(this.#handle, asset, weight);
   }
 
   counts(): Counts {
@@ -124,33 +124,33 @@ export class WasmClient {
   take(budget: number): PackEvent | null {
     const kind = this.#wasm.lw_take(this.#handle, budget);
     const r = this.#record(32);
-    const stream = r[0]!;
+    const asset = r[0]!;
     switch (kind) {
       case 1:
         return { type: 'opening', glb: this.#copy(r[0]!, r[1]!) };
       case 2:
         return {
           type: 'mesh',
-          stream,
+          asset,
           vertices: r[1]!,
           faces: r[2]!,
           attributes: Array.from(r.subarray(4, 4 + r[3]!), attributeLayout),
         };
       case 3:
-        return { type: 'range', stream, buffer: r[1]!, offset: r[2]!, data: new Uint8Array(this.#copy(r[3]!, r[4]!)) };
+        return { type: 'range', asset, buffer: r[1]!, offset: r[2]!, data: new Uint8Array(this.#copy(r[3]!, r[4]!)) };
       case 4:
-        return { type: 'draw', stream, vertices: r[1]!, faces: r[2]! };
+        return { type: 'draw', asset, vertices: r[1]!, faces: r[2]! };
       case 5:
         return {
           type: 'light',
-          stream,
+          asset,
           width: r[1]!,
           height: r[2]!,
           depth: r[3]!,
           atlas: new Uint16Array(this.#copy(r[5]!, r[6]!)),
         };
       case 6:
-        return { type: 'texture', stream, mimeType: IMAGE_TYPES[r[1]!]!, file: this.#copy(r[4]!, r[5]!) };
+        return { type: 'texture', asset, mimeType: IMAGE_TYPES[r[1]!]!, file: this.#copy(r[4]!, r[5]!) };
       case 7:
         return { type: 'connection', state: 'complete' };
       case 8:

@@ -11,6 +11,12 @@ export interface StreamsExtension {
   exposure?: number;
 }
 
+/**
+ * The asset that the stream of an extension refines, as updates and weights name it: in the packs of today the number of both
+ * (lightwell/asset/asset.h).
+ */
+export const assetOf = (extension: { stream: number }): number => extension.stream;
+
 /** On a primitive. */
 export interface ProgressiveMeshExtension {
   stream: number;

@@ -2,6 +2,7 @@
 import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
 import { type ConnectionOptions, PackConnection, reporting } from '../core/connection.js';
 import type { ConnectionEvent, LightEvent, MeshEvent, PackEvent } from '../core/protocol.js';
+import { assetOf } from './extensions.js';
 import { readOpening } from './opening.js';
 import { messageOf, PackError, reasonOf } from './pack_error.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
@@ -81,15 +82,15 @@ export class LightwellLoader extends Loader<LightwellScene> {
       const opening = await readOpening(glb, this.manager);
       // The first state of a light comes with the opening, so it is close behind. A picture without it would be black.
       const lights: LightEvent[] = [];
-      for (const { stream } of opening.extensions.LIGHTWELL_light_grids?.grids ?? []) {
-        const light = await inbox.take((event): event is LightEvent => event.type === 'light' && event.stream === stream);
+      for (const asset of (opening.extensions.LIGHTWELL_light_grids?.grids ?? []).map(assetOf)) {
+        const light = await inbox.take((event): event is LightEvent => event.type === 'light' && event.asset === asset);
         connection.consumed(light.atlas.byteLength);
         lights.push(light);
       }
       const created = (scene = await LightwellScene.create(opening, lights, connection, renderer, this.#options));
       // So are the sizes of the meshes: all buffers are there with the first frame.
-      for (const stream of opening.primitives.keys())
-        scene.receive(await inbox.take((event): event is MeshEvent => event.type === 'mesh' && event.stream === stream));
+      for (const asset of opening.primitives.keys())
+        scene.receive(await inbox.take((event): event is MeshEvent => event.type === 'mesh' && event.asset === asset));
       signal.throwIfAborted();
       setTimeout(() => inbox.forward((event) => created.receive(event)));
       return scene;

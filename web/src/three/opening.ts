@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type BufferGeometry, type LoadingManager, Mesh, type Object3D, type Texture } from 'three';
 import { type GLTF, GLTFLoader, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
-import type { PackExtensions, ProgressiveMeshExtension, ProgressiveTextureExtension } from './extensions.js';
+import {
+  assetOf,
+  type PackExtensions,
+  type ProgressiveMeshExtension,
+  type ProgressiveTextureExtension,
+} from './extensions.js';
 import { mapsOf, materialsOf, meshesIn } from './meshes.js';
 
 /** A primitive that a stream refines: the meshes that show it, one for each node. */
@@ -73,9 +78,9 @@ function progressivePrimitives(gltf: GLTF): Map<number, ProgressivePrimitive> {
     const definition = definitions.meshes?.[at?.meshes ?? -1]?.primitives[at?.primitives ?? 0];
     const extension = definition?.extensions?.['LIGHTWELL_progressive_mesh'] as ProgressiveMeshExtension | undefined;
     if (extension === undefined) continue;
-    const known = primitives.get(extension.stream);
+    const known = primitives.get(assetOf(extension));
     if (known !== undefined) known.meshes.push(mesh);
-    else primitives.set(extension.stream, { extension, meshes: [mesh], base: mesh.geometry });
+    else primitives.set(assetOf(extension), { extension, meshes: [mesh], base: mesh.geometry });
   }
   return primitives;
 }
@@ -89,12 +94,12 @@ function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
       | ProgressiveTextureExtension
       | undefined;
     if (extension === undefined) continue;
-    const known = images.get(extension.stream);
+    const known = images.get(assetOf(extension));
     const { width, height } = texture.image as ImageBitmap;
     const image = known ?? { extension, textures: [], meshes: [], previewSize: Math.max(width, height) };
     image.textures.push(texture);
     image.meshes.push(...meshes);
-    images.set(extension.stream, image);
+    images.set(assetOf(extension), image);
   }
   return images;
 }

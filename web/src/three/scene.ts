@@ -25,6 +25,7 @@ import {
   payload,
 } from '../core/protocol.js';
 import { disposeAll } from './dispose.js';
+import { assetOf } from './extensions.js';
 import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
 import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
@@ -105,7 +106,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.bounds = finalBounds(opening);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
     this.grids = grids;
-    for (const grid of grids) this.#lights.set(grid.definition.stream, new LightRefinement(grid, renderer));
+    for (const grid of grids) this.#lights.set(assetOf(grid.definition), new LightRefinement(grid, renderer));
     this.lamps = this.#createLamps();
     this.add(...grids, ...this.lamps);
   }
@@ -125,8 +126,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const grids = definitions.map((grid, i) => new LightwellLight(grid, lights[i]!.atlas));
     for (const { texture } of grids) checkSize(texture, renderer);
     const images = new Map<number, TextureRefinement>();
-    for (const [stream, { extension, textures }] of opening.images)
-      images.set(stream, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
+    for (const [asset, { extension, textures }] of opening.images)
+      images.set(asset, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
     return new LightwellScene(opening, images, grids, connection, renderer, options);
   }
 
@@ -209,11 +210,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
         return this.#startMesh(event);
       case 'range':
       case 'draw':
-        return this.#refineBy(event, this.#meshes.get(event.stream));
+        return this.#refineBy(event, this.#meshes.get(event.asset));
       case 'light':
-        return this.#refineBy(event, this.#lights.get(event.stream));
+        return this.#refineBy(event, this.#lights.get(event.asset));
       case 'texture':
-        return this.#refineBy(event, this.#images.get(event.stream));
+        return this.#refineBy(event, this.#images.get(event.asset));
     }
   }
 
@@ -268,7 +269,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   }
 
   #startMesh(layout: MeshEvent): void {
-    const primitive = this.opening.primitives.get(layout.stream);
+    const primitive = this.opening.primitives.get(layout.asset);
     if (primitive === undefined) return;
     const { min, max } = primitive.extension.bounds;
     const bounds = new Box3(new Vector3(...min), new Vector3(...max));
@@ -276,7 +277,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
     this.#handOver.run([refinement.geometry]);
     primitive.base.dispose();
-    this.#meshes.set(layout.stream, refinement);
+    this.#meshes.set(layout.asset, refinement);
   }
 
   #createLamps(): Lamp[] {

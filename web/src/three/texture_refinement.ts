@@ -60,7 +60,7 @@ export class TextureRefinement implements Refinement {
       this.#bytes = event.file.byteLength;
     } catch (error) {
       this.#consumed += event.file.byteLength;
-      throw new Error(`the image of stream ${event.stream} (${event.mimeType}) cannot be read: ${messageOf(error)}`);
+      throw new Error(`the image of asset ${event.asset} (${event.mimeType}) cannot be read: ${messageOf(error)}`);
     } finally {
       this.#decoding = false;
     }

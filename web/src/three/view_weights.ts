@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box3, type Camera, Frustum, Matrix4, type Mesh, Vector3 } from 'three';
-import type { LightGridDefinition } from './extensions.js';
+import { assetOf, type LightGridDefinition } from './extensions.js';
 import type { LightwellLight } from './light.js';
 import type { Opening, ProgressiveImage, ProgressivePrimitive } from './opening.js';
 
@@ -9,10 +9,10 @@ const OUT_OF_SIGHT = 0.01;
 /** Number of places on each axis at which a grid is tested for being in sight. */
 const PLACES = 5;
 
-export type StreamWeight = [stream: number, weight: number];
+export type AssetWeight = [asset: number, weight: number];
 
 /**
- * How much the streams matter to a picture: of a mesh its coarsest level's error, of an image the size of its preview's texels,
+ * How much the assets matter to a picture: of a mesh its coarsest level's error, of an image the size of its preview's texels,
  * both in pixels and times the share of the picture that the object covers, the largest being 1; of a light grid the share of it
  * that is seen.
  */
@@ -21,16 +21,16 @@ export function viewWeights(
   grids: LightwellLight[],
   camera: Camera,
   heightInPixels: number,
-): StreamWeight[] {
+): AssetWeight[] {
   const view = new View(camera, heightInPixels);
-  const geometry = [...opening.primitives, ...opening.images].map(([stream, shown]): StreamWeight => [
-    stream,
+  const geometry = [...opening.primitives, ...opening.images].map(([asset, shown]): AssetWeight => [
+    asset,
     Math.max(0, ...shown.meshes.map((mesh) => ('base' in shown ? view.ofMesh(mesh, shown) : view.ofImage(mesh, shown)))),
   ]);
   const largest = Math.max(Number.MIN_VALUE, ...geometry.map(([, weight]) => weight));
   return [
-    ...geometry.map(([stream, weight]): StreamWeight => [stream, weight / largest]),
-    ...grids.map((grid): StreamWeight => [grid.definition.stream, view.ofGrid(grid.definition, grid.matrixWorld)]),
+    ...geometry.map(([asset, weight]): AssetWeight => [asset, weight / largest]),
+    ...grids.map((grid): AssetWeight => [assetOf(grid.definition), view.ofGrid(grid.definition, grid.matrixWorld)]),
   ];
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightwell/client/line.h"
+#include "lightwell/client/line_estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,30 +16,30 @@ constexpr double longest_pause = 30;
 
 }  // namespace
 
-void Line::sent(double now, bool alone) {
+void LineEstimate::sent(double now, bool alone) {
   if (!alone) return;
   measured_from_ = now;
   measured_bytes_ = 0;
 }
 
-void Line::arrived(uint64_t bytes, double now) {
+void LineEstimate::arrived(uint64_t bytes, double now) {
   measured_bytes_ += bytes;
   const double seconds = now - measured_from_;
   if (seconds < measure_seconds && static_cast<double>(measured_bytes_) < longest_request) return;
-  rate_ = (rate_ + static_cast<double>(measured_bytes_) / std::max(seconds, 1e-3)) / 2;
+  throughput_ = (throughput_ + static_cast<double>(measured_bytes_) / std::max(seconds, 1e-3)) / 2;
   measured_from_ = now;
   measured_bytes_ = 0;
 }
 
-void Line::failed(double now) {
+void LineEstimate::failed(double now) {
   const double pause = std::min(longest_pause, std::ldexp(first_pause, static_cast<int>(std::min(failures_, 16u))));
   retry_at_ = std::max(retry_at_, now + pause * (0.5 + 0.5 * static_cast<double>(random_.uniform())));
   failures_++;
-  rate_ /= 2;
+  throughput_ /= 2;
 }
 
-uint64_t Line::request_length() const {
-  return static_cast<uint64_t>(std::clamp(rate_ * request_seconds, shortest_request, longest_request));
+uint64_t LineEstimate::request_length() const {
+  return static_cast<uint64_t>(std::clamp(throughput_ * request_seconds, shortest_request, longest_request));
 }
 
 }  // namespace lightwell

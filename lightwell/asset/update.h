@@ -10,8 +10,9 @@
 
 namespace lightwell {
 
-/// What a client hands over, in the order in which it has to be applied. Bytes are views into the client, good until
-/// its next call.
+/// What a viewer is handed, in the order in which it has to be applied: by a client the opening, what decoders hand
+/// over of their assets, and the end. Bytes are views into the client or the decoder, good until its next call. `asset`
+/// is numbered as asset_of_stream() says (asset/asset.h).
 
 /// The opening: a GLB for a glTF loader. Comes once, first.
 struct OpeningUpdate {
@@ -32,7 +33,7 @@ struct AttributeLayout {
 
 /// A mesh's buffers in their final sizes, to be allocated once; comes before any other update of the mesh.
 struct MeshUpdate {
-  uint32_t stream = 0;
+  uint32_t asset = 0;
   uint32_t vertices = 0;
   uint32_t faces = 0;  ///< three indices of 32 bits each
   std::vector<AttributeLayout> attributes;
@@ -42,7 +43,7 @@ struct MeshUpdate {
 struct RangeUpdate {
   static constexpr uint32_t indices = 255;
 
-  uint32_t stream = 0;
+  uint32_t asset = 0;
   uint32_t buffer = 0;  ///< index into MeshUpdate::attributes, or `indices`
   uint32_t offset = 0;  ///< bytes from the start of the buffer: a multiple of 4, as is the length
   Bytes data;
@@ -50,16 +51,16 @@ struct RangeUpdate {
 
 /// The mesh may be drawn with this many vertices and faces: comes behind the ranges that make it so.
 struct DrawUpdate {
-  uint32_t stream = 0;
+  uint32_t asset = 0;
   uint32_t vertices = 0;
   uint32_t faces = 0;
 };
 
-/// A light grid as a whole, as the half-float RGBA texture of light/atlas.h. The eight corner nodes come with the
-/// opening, mostly with the first block behind it: who calls take() after each work() has that light before anything
-/// else is decoded.
+/// A light grid as a whole, as the half-float RGBA texture of light/atlas.h. Its eight corner nodes come with the
+/// opening, mostly with the first block behind it: who calls a client's take() after each work() has that light before
+/// anything else is decoded.
 struct LightUpdate {
-  uint32_t stream = 0;
+  uint32_t asset = 0;
   uint32_t width = 0;
   uint32_t height = 0;
   uint32_t depth = 0;
@@ -69,7 +70,7 @@ struct LightUpdate {
 
 /// A complete image file.
 struct TextureUpdate {
-  uint32_t stream = 0;
+  uint32_t asset = 0;
   uint8_t format = 0;  ///< ImageFormat of texture/image_format.h
   uint32_t width = 0;
   uint32_t height = 0;

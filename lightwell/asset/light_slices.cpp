@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The light codec light_codec_slices: records of moments, some of every slice at a time (light/stream.h).
+#include "lightwell/asset/codecs.h"
+#include "lightwell/asset/light_asset.h"
+#include "lightwell/light/stream.h"
+
+namespace lightwell {
+namespace {
+
+class LightSlices final : public LightAsset {
+ public:
+  LightSlices(uint32_t asset, Fill fill, LightDecoder decoder)
+      : LightAsset(asset, fill, {decoder.layout().shape, decoder.layout().normal_offset, decoder.layout().scale}),
+        decoder_(std::move(decoder)) {}
+
+  Result<void> append(Bytes payload) override { return decoder_.append(payload); }
+  const LightGrid& grid() const override { return decoder_.grid(); }
+  std::span<const uint8_t> known() const override { return decoder_.known(); }
+  size_t received() const override { return decoder_.received(); }
+
+ private:
+  LightDecoder decoder_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<AssetDecoder>> open_light_slices(const AssetSource& source) {
+  // The decoder's and the atlas's 250 bytes a node, and as much again while holes are filled.
+  constexpr uint64_t bytes_a_node = 500;
+  LW_TRY(layout, LightLayout::read(source.entry.parameters));
+  LW_CHECK(source.context.spend(layout.shape.count() * bytes_a_node));
+  LW_TRY(decoder, LightDecoder::open(source.entry.parameters, source.entry.length));
+  return std::make_unique<LightSlices>(source.asset, source.context.fill, std::move(decoder));
+}
+
+}  // namespace lightwell

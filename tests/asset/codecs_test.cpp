@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The table of codecs: what it opens is what the codec by itself decodes, and what it does not know it refuses.
+#include "lightwell/asset/codecs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "lightwell/asset/light_asset.h"
+#include "lightwell/asset/mesh_asset.h"
+#include "lightwell/asset/texture_asset.h"
+#include "lightwell/light/stream.h"
+#include "lightwell/mesh/base_places.h"
+#include "tests/asset/sample_assets.h"
+
+namespace lightwell {
+namespace {
+
+using testing::HasSubstr;
+
+template <typename T>
+bool same(std::span<const T> a, std::span<const T> b) {
+  return std::ranges::equal(a, b);
+}
+
+void expect_same(const MeshBuffers& buffers, const MeshDecoder& decoder) {
+  EXPECT_EQ(buffers.vertices, decoder.vertices());
+  EXPECT_EQ(buffers.faces, decoder.faces());
+  EXPECT_TRUE(same(buffers.positions, decoder.positions()));
+  EXPECT_TRUE(same(buffers.normals, decoder.normals()));
+  EXPECT_TRUE(same(buffers.texcoords[0], decoder.texcoords(0)));
+  EXPECT_TRUE(same(buffers.texcoords[1], decoder.texcoords(1)));
+  EXPECT_TRUE(same(buffers.colors, decoder.colors()));
+  EXPECT_TRUE(same(buffers.indices, decoder.indices()));
+}
+
+void compare_mesh(const SampleAssets& pack, uint32_t stream) {
+  AssetContext context = pack.context();
+  const auto mesh = open_asset_as<MeshAsset>(pack.reader.directory(), stream, context).value();
+  const StreamEntry& entry = pack.entry(stream);
+  const MeshParameters parameters = MeshParameters::read(entry.parameters).value();
+  const BaseArrays base = BaseArrays::read(parameters.layout, parameters.places, pack.bin()).value();
+  MeshDecoder decoder = std::move(MeshDecoder::open(parameters.layout, base.view(), entry.length).value());
+  expect_same(mesh->buffers(), decoder);
+  for (const std::vector<uint8_t>& payload : pack.payloads(stream)) {
+    ASSERT_TRUE(mesh->append(payload));
+    ASSERT_TRUE(decoder.append(payload));
+    expect_same(mesh->buffers(), decoder);
+  }
+  EXPECT_TRUE(decoder.complete());
+}
+
+void compare_light(const SampleAssets& pack, uint32_t stream) {
+  AssetContext context = pack.context();
+  const auto light = open_asset_as<LightAsset>(pack.reader.directory(), stream, context).value();
+  LightDecoder decoder = LightDecoder::open(pack.entry(stream).parameters, pack.entry(stream).length).value();
+  for (const std::vector<uint8_t>& payload : pack.payloads(stream)) {
+    ASSERT_TRUE(light->append(payload));
+    ASSERT_TRUE(decoder.append(payload));
+    EXPECT_EQ(light->received(), decoder.received());
+    EXPECT_TRUE(same(light->known(), decoder.known()));
+    for (size_t i = 0; i < decoder.grid().moments.size(); i++)
+      ASSERT_EQ(light->grid().moments[i].m, decoder.grid().moments[i].m) << "node " << i;
+  }
+  EXPECT_TRUE(decoder.complete());
+}
+
+void compare_texture(const SampleAssets& pack, uint32_t stream) {
+  AssetContext context = pack.context();
+  const auto image = open_asset_as<TextureAsset>(pack.reader.directory(), stream, context).value();
+  for (const std::vector<uint8_t>& payload : pack.payloads(stream)) ASSERT_TRUE(image->append(payload));
+  EXPECT_EQ(image->file(), pack.scene.image);
+}
+
+TEST(Codecs, OpenWhatTheCodecByItselfDecodes) {
+  const SampleAssets pack;
+  std::array<int, 3> kinds{};
+  for (uint32_t stream = 0; stream < pack.streams(); stream++) {
+    kinds[static_cast<size_t>(pack.entry(stream).kind)]++;
+    switch (pack.entry(stream).kind) {
+      case StreamKind::light: compare_light(pack, stream); break;
+      case StreamKind::mesh: compare_mesh(pack, stream); break;
+      case StreamKind::texture: compare_texture(pack, stream); break;
+    }
+  }
+  EXPECT_THAT(kinds, testing::Each(testing::Gt(0))) << "a sample of every kind";
+}
+
+TEST(Codecs, UnknownOneIsRefusedByName) {
+  const SampleAssets pack;
+  Directory directory = pack.reader.directory();
+  for (uint32_t stream = 0; stream < pack.streams(); stream++)
+    for (int codec = 0; codec < 256; codec++) {
+      directory.streams[stream].codec = static_cast<uint8_t>(codec);
+      AssetContext context = pack.context();
+      const uint64_t before = context.budget;
+      const auto opened = open_asset(directory, stream, context);
+      ASSERT_EQ(opened.has_value(), codec == pack.entry(stream).codec) << "stream " << stream << ", codec " << codec;
+      if (opened) continue;
+      EXPECT_EQ(context.budget, before);
+      EXPECT_EQ(opened.error().message(), "stream " + std::to_string(stream) + ": codec: the " +
+                                              to_text(pack.entry(stream).kind) + " codec " + std::to_string(codec) +
+                                              " is not known to this program");
+    }
+}
+
+TEST(Codecs, AnotherKindIsRefused) {
+  const SampleAssets pack;
+  AssetContext context = pack.context();
+  for (uint32_t stream = 0; stream <= pack.streams(); stream++) {
+    const auto is = [&](StreamKind kind) { return stream < pack.streams() && pack.entry(stream).kind == kind; };
+    const Directory& directory = pack.reader.directory();
+    EXPECT_EQ(open_asset_as<MeshAsset>(directory, stream, context).has_value(), is(StreamKind::mesh));
+    EXPECT_EQ(open_asset_as<LightAsset>(directory, stream, context).has_value(), is(StreamKind::light));
+    EXPECT_EQ(open_asset_as<TextureAsset>(directory, stream, context).has_value(), is(StreamKind::texture));
+  }
+  EXPECT_THAT(open_asset_as<MeshAsset>(pack.reader.directory(), 0, context).error().message(),
+              HasSubstr("stream 0: is no mesh stream"));
+}
+
+TEST(Codecs, StreamsShareABudgetOfBytes) {
+  const SampleAssets pack;
+  AssetContext context = pack.context();
+  for (uint32_t stream = 0; stream < pack.streams(); stream++) {
+    const uint64_t before = context.budget;
+    ASSERT_TRUE(open_asset(pack.reader.directory(), stream, context));
+    const uint64_t needed = before - context.budget;
+    EXPECT_GT(needed, 0u);
+    AssetContext exact = pack.context(), short_of_one = pack.context();
+    exact.budget = needed;
+    short_of_one.budget = needed - 1;
+    EXPECT_TRUE(open_asset(pack.reader.directory(), stream, exact));
+    EXPECT_EQ(exact.budget, 0u);
+    EXPECT_FALSE(open_asset(pack.reader.directory(), stream, short_of_one));
+  }
+}
+
+// Decoders' memory is bounded by the bytes that the directory says will come.
+TEST(Codecs, MoreThanTheStreamsLengthCanHoldIsRefused) {
+  const SampleAssets pack;
+  Directory directory = pack.reader.directory();
+  for (uint32_t stream = 0; stream < pack.streams(); stream++) {
+    if (directory.streams[stream].blocks == 0) continue;  // the walls are complete from the start
+    directory.streams[stream].length = 10;
+    AssetContext context = pack.context();
+    EXPECT_FALSE(open_asset(directory, stream, context)) << "stream " << stream;
+  }
+}
+
+TEST(Codecs, ParametersThatAreCutOrTooLongAreRefused) {
+  const SampleAssets pack;
+  Directory directory = pack.reader.directory();
+  for (uint32_t stream = 0; stream < pack.streams(); stream++) {
+    std::vector<uint8_t>& parameters = directory.streams[stream].parameters;
+    AssetContext context = pack.context();
+    parameters.push_back(0);
+    EXPECT_FALSE(open_asset(directory, stream, context));
+    while (!parameters.empty()) {
+      parameters.pop_back();
+      EXPECT_EQ(open_asset(directory, stream, context).has_value(), parameters == pack.entry(stream).parameters);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lightwell
