@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lightwell/base/bytes.h"
 #include "lightwell/asset/update.h"
+#include "lightwell/base/bytes.h"
 
 namespace lightwell {
 
