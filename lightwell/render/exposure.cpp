@@ -51,7 +51,7 @@ Readings read_meter(const World& world, const Camera& camera, const LightField& 
   });
   Readings readings;
   for (const Vec2f& pixel : pixels) {
-    if (pixel[0] <= 0) continue;
+    if (!(pixel[0] > 0) || !is_finite(pixel)) continue;  // nor what is not a number
     readings.incident.push_back(pixel[0]);
     readings.reflected.push_back(pixel[1]);
   }

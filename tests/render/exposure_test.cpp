@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/trace/scenes.h"
 #include "tests/trace/truth.h"
 
@@ -44,6 +46,12 @@ TEST(Exposure, KeepsWhiteWhiteAndBlackBlack) {
   const LightField grid = grid_of([](float) { return 2 * pi; });
   EXPECT_NEAR(exposure_of_wall(0.8f, grid), -2, 1e-5f);
   EXPECT_NEAR(exposure_of_wall(0.04f, grid), -2, 1e-5f);
+}
+
+// A place so far away that its light is no number is not metered.
+TEST(Exposure, IsANumberWhateverTheLightIs) {
+  EXPECT_EQ(exposure_of_wall(0.8f, grid_of([](float) { return std::numeric_limits<float>::quiet_NaN(); })), 0);
+  EXPECT_EQ(exposure_of_wall(0.8f, grid_of([](float) { return std::numeric_limits<float>::infinity(); })), 0);
 }
 
 // Where half of the wall gets a thousand times the light, one half for the geometric mean would be 0.5 * sqrt(1000) for
