@@ -72,7 +72,8 @@ class DocumentBuilder {
 void drop_unused(Document& document);
 
 /// Puts the arrays of meshes that have buffer views of their own into a few that they share: one for each size of
-/// element. JSON says as much about a view as about an array. What is unused is dropped.
+/// element. JSON says as much about a view as about an array. The views of before stay, unused: single_buffer drops
+/// them.
 void share_buffer_views(Document& document);
 
 /// The document with at most one buffer and every image inside it. An image that cannot be read becomes a white pixel
