@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light grid's costs: push-pull with and without smoothing, decoding, the size of the stream. Grids of 32^3 nodes
-// in the light of eight small lamps, with noise as a bake leaves it.
+// The costs of the light grid: push-pull with and without smoothing, decoding, the size of the stream, the atlas. Grids
+// of 32^3 nodes in the light of eight small lamps, with noise like that of a bake.
 #include <benchmark/benchmark.h>
 
 #include "lightwell/light/atlas.h"
@@ -16,7 +16,8 @@ LightGrid cube(int nodes, float noise) {
   return lamp_grid(GridShape::over({{{0, 0, 0}}, {{4, 4, 4}}}, nodes), 3, noise);
 }
 
-// Half of the nodes are known, as in S08's Figure 2.
+// Half of the nodes are known, as in Figure 2 of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes
+// with Complex Geometry and Complex Lighting", Web3D 2008).
 void push_pull_half(benchmark::State& state, Fill fill) {
   const LightGrid grid = cube(32, 0.03f);
   Random random(1, 0);

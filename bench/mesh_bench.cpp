@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mesh room beside its peers, on a scan-like knot of 100 thousand and of a million triangles: simplification beside
-// meshoptimizer, the stream beside Draco. Times are processor time of one thread.
+// The room `mesh` compared with its peers, on scan-like knots of 100 thousand and of a million triangles:
+// simplification with meshoptimizer, the stream with Draco. Times are processor time of one thread.
 #include <benchmark/benchmark.h>
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>

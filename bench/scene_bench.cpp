@@ -8,7 +8,7 @@
 namespace lightwell {
 namespace {
 
-/// The time from a file or a built-in scene's name to the scene in memory; skipped when there is no such file.
+/// Measures loading a file or a built-in scene; skipped when there is no such file.
 void load(benchmark::State& state, const std::string& path, bool is_file) {
   if (is_file && !std::filesystem::exists(path)) {
     state.SkipWithError((path + " is not there").c_str());

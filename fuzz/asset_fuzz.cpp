@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stream of any kind, codec and bytes as a case (tests/asset/asset_case.h), with little memory: what is opened hands
-// over ranges that lie inside the buffers it has announced.
+// Decodes a stream of any kind, codec and bytes, given as a case (tests/asset/asset_case.h), with a small memory
+// budget: the ranges that it delivers lie inside the buffers that it has announced.
 #include "lightwell/base/assert.h"
 #include "tests/asset/asset_case.h"
 

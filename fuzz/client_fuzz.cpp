@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any answers to a client's requests, in any order: the input is a script of what the network does, its bytes included.
+// Gives a client any answers, in any order: the input is a script of what the network does, including its bytes.
 #include <algorithm>
 
 #include "lightwell/client/client.h"

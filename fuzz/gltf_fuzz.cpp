@@ -7,7 +7,7 @@ using namespace lightwell;
 
 namespace {
 
-/// A folder that does not exist: no input may lead to a file.
+/// A folder that does not exist, so that no input can read a file.
 const std::filesystem::path no_folder = "/nonexistent";
 
 void require(bool condition) {
@@ -30,7 +30,7 @@ void read_primitives(const Document& document, Report& report) {
 
 }  // namespace
 
-/// Whatever is read can be written, and what was written reads the same again.
+/// Whatever can be read can be written, and reads the same again.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Report report;
   const auto document = read_document({data, size}, no_folder, report);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any glTF document as a scene. The input is a script of edits to the JSON of a document that has something of all that
-// the import reads: of a text with changed bytes little remains JSON, and less a document.
+// Imports any glTF document as a scene. The input is a script of edits to the JSON of a document that has some of
+// everything the import reads: a text with changed bytes is hardly ever JSON, let alone a document.
 #include <cmath>
 
 #include "lightwell/base/assert.h"
@@ -14,7 +14,8 @@ namespace {
 // Larger documents would only slow the search down.
 constexpr size_t most_edits = 64, most_places = 4096;
 
-/// The buffer: four positions, normals, texture coordinates, six indices, and sixteen times 1.
+/// A valid document. Its buffer holds four positions, normals and texture coordinates, six indices, and sixteen times
+/// 1.
 constexpr std::string_view valid_document =
     R"({
   "asset": {"version": "2.0"},
@@ -83,7 +84,7 @@ constexpr std::string_view valid_document =
     R"(AACAPwAAgD8AAIA/AACAPwAAgD8AAIA/AACAPwAAgD8AAIA/AACAPwAAgD8AAIA/AACAPwAAgD8AAIA/"}]
 })";
 
-/// A value and all that it holds.
+/// Collects a value and everything in it.
 void collect(Json& value, std::vector<Json*>& places) {
   places.push_back(&value);
   if (value.is_structured())
@@ -92,7 +93,7 @@ void collect(Json& value, std::vector<Json*>& places) {
 
 enum class Edit : uint8_t { remove, empty, set_small, set_number, set_power, copy, append, shorten };
 
-/// Puts something else in one place: a value of the script's, or a copy of what stands elsewhere.
+/// Edits one place: removes or shortens it, or puts in a value of the script or a copy of another place.
 void edit(const std::vector<Json*>& places, ByteReader& script) {
   Json& place = *places[script.u16() % places.size()];
   const Json& other = *places[script.u16() % places.size()];
@@ -160,7 +161,7 @@ void check(const Scene& scene) {
 
 }  // namespace
 
-/// Every document becomes a scene whose meshes and lights can be relied on, or an error of one line.
+/// Every document gives a scene whose meshes and lights are valid, or an error of one line.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string text = edited_document(ByteReader({data, size})).dump();
   Report report;

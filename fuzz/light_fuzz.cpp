@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A light stream of any bytes as a case: the parameters, then the payloads. Whatever is accepted can be filled, looked
-// up and put into an atlas.
+// Decodes a light stream of any bytes, given as a case: the parameters, then the payloads. Whatever is accepted can be
+// filled, looked up and put into an atlas.
 #include "lightwell/base/assert.h"
 #include "lightwell/light/atlas.h"
 #include "lightwell/light/push_pull.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A mesh stream of any bytes as a case: its parameters, the BIN chunk with the arrays of its coarsest level, then the
-// payloads. What the decoder takes can be drawn after every payload.
+// Decodes a mesh stream of any bytes, given as a case: its parameters, the BIN chunk with the arrays of its coarsest
+// level, then the payloads. The mesh can be drawn after every payload.
 #include "lightwell/base/assert.h"
 #include "lightwell/mesh/base_places.h"
 #include "tests/cases/case.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Any bytes as a pack: opening, directory, tables, every block. The checks would stop nearly every input at the door,
-// so the directory is also read behind a check made right.
+// Reads any bytes as a pack: opening, directory, tables, every block. Checksums would reject nearly every input, so the
+// directory is also read with its checksum corrected.
 #include <vector>
 
 #include "lightwell/base/crc32c.h"

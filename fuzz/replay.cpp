@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TARGET FOLDER...: runs a fuzz target on every file of some folders, where there is no libFuzzer to do it.
+// TARGET FOLDER...: runs a fuzz target on every file of some folders, in builds without libFuzzer.
 #include <cstdio>
 #include <filesystem>
 

@@ -21,7 +21,7 @@ void check(const Mesh& mesh) {
 
 }  // namespace
 
-/// PLY and OBJ files: any bytes give a mesh whose indices hold, or an error of one line.
+/// PLY and OBJ files: any bytes give a mesh whose indices are in range, or an error of one line.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Bytes bytes(data, size);
   Report report;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// fuzz_seeds FOLDER: what the fuzzer starts from, a folder a target: generated streams, packs, meshes and images, and
-// the rooms of tests/data.
+// fuzz_seeds FOLDER: writes the inputs from which fuzzing starts, one folder for each target: generated streams, packs,
+// meshes and images, and the rooms of tests/data.
 #include <webp/encode.h>
 
 #include <array>
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The fuzzer cuts longer inputs off.
+// The fuzzer truncates longer inputs.
 constexpr size_t longest_seed = 65536;
 
 constexpr std::string_view ply_text =
@@ -35,7 +35,7 @@ constexpr std::string_view obj_text =
     "b\n"
     "f 1/1/1 2/2/1 3/1/1 4/2/1\nf -1//1 -2//1 -3//1\nl 1 2\n";
 
-/// Eight pixels, run-length coded in the new way: the rows of each channel one after another.
+/// Eight pixels in the newer run-length coding: the rows of each channel one after another.
 constexpr std::string_view radiance_text =
     "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 1 +X 8\n\x02\x02\x00\x08\x88\x10\x88\x20\x88\x30\x88\x80"sv;
 
@@ -67,7 +67,7 @@ void plant_streams(Seeds& seeds) {
   }
 }
 
-/// The script of client_fuzz.cpp in which the server sends a whole pack, and the client has time to decode it.
+/// A script for client_fuzz.cpp: the server sends a whole pack, and the client has time to decode it.
 std::vector<uint8_t> client_script(Bytes pack) {
   constexpr uint8_t respond = 0, wait = 7, receive = 8;
   ByteWriter script;
@@ -99,7 +99,7 @@ void plant_scenes(Seeds& seeds) {
   seeds.plant("scene", as_bytes(obj_text));
 }
 
-/// Scripts of import_fuzz.cpp: one that changes nothing, and such as nobody has thought of.
+/// Scripts for import_fuzz.cpp: one that changes nothing, and random ones.
 void plant_edits(Seeds& seeds) {
   constexpr uint8_t shorten = 7;  // the document itself, which is no array
   seeds.plant("import", std::array<uint8_t, 5>{0, 0, 0, 0, shorten});

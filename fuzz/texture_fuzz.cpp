@@ -16,7 +16,7 @@ size_t area(int width, int height) { return static_cast<size_t>(width) * static_
 
 }  // namespace
 
-/// Image files and Radiance pictures: any bytes give as many pixels as are announced, or an error.
+/// Image files and Radiance pictures: any bytes give as many pixels as they announce, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Bytes bytes(data, size);
   if (const auto image = read_image_file(bytes)) {

@@ -14,7 +14,7 @@ struct Codec {
   Result<std::unique_ptr<AssetDecoder>> (*open)(const AssetSource& source);
 };
 
-/// The table of codecs. All rows of a kind make that kind's class: open_asset_as() relies on it.
+/// The table of codecs. All codecs of a kind create that kind's class, on which open_asset_as() relies.
 constexpr Codec codecs[] = {
     {StreamKind::light, light_codec_slices, open_light_slices},
     {StreamKind::mesh, mesh_codec_splits, open_mesh_splits},

@@ -9,40 +9,39 @@
 
 namespace lightwell {
 
-/// What the decoders of a pack share.
+/// The state that the decoders of a pack share.
 struct AssetContext {
-  Bytes bin;                    ///< the data of the opening's BIN chunk
-  Fill fill = Fill::push_pull;  ///< how nodes of a light grid that have not arrived are filled
-  uint64_t budget =
-      uint64_t(3) << 30;  ///< bytes of buffers that may still be asked for, of a WebAssembly module's 4 GiB
+  Bytes bin;                            ///< the data of the opening's BIN chunk
+  Fill fill = Fill::push_pull;          ///< how nodes of a light grid that have not arrived are filled
+  uint64_t budget = uint64_t(3) << 30;  ///< bytes left for buffers, out of a WebAssembly module's 4 GiB
 
-  /// Takes bytes from the budget; fails when there are fewer.
+  /// Takes bytes from the budget; fails when fewer are left.
   Result<void> spend(uint64_t bytes);
 };
 
-/// Opens the decoder of a stream: the row of the table of codecs that the stream's kind and codec name reads its
-/// parameters. Fails, naming the stream, for a codec that this program does not know, for sizes that the stream's
-/// length cannot hold, and for those beyond the budget; nothing of such a size is allocated.
+/// Opens the decoder for a stream's kind and codec. Fails, naming the stream, for invalid parameters, for unknown
+/// codecs, for sizes that the stream's length cannot hold, and for those beyond the budget, before anything of that
+/// size is allocated.
 Result<std::unique_ptr<AssetDecoder>> open_asset(const Directory& directory, uint32_t stream, AssetContext& context);
 
-/// The same for a stream that has to be of a kind: MeshAsset, LightAsset or TextureAsset. Fails, too, when there is no
-/// such stream or it is of another kind.
+/// The same for a stream of a given kind: MeshAsset, LightAsset or TextureAsset. Also fails when there is no such
+/// stream or it is of another kind.
 template <typename Kind>
 Result<std::unique_ptr<Kind>> open_asset_as(const Directory& directory, size_t stream, AssetContext& context) {
   if (stream >= directory.streams.size() || directory.streams[stream].kind != Kind::kind)
     return fail("stream " + std::to_string(stream), "is no " + std::string(to_text(Kind::kind)) + " stream");
   LW_TRY(decoder, open_asset(directory, static_cast<uint32_t>(stream), context));
-  return std::unique_ptr<Kind>(static_cast<Kind*>(decoder.release()));  // by the table every row of a kind makes one
+  return std::unique_ptr<Kind>(static_cast<Kind*>(decoder.release()));  // all codecs of a kind create one
 }
 
-/// A stream that a row of the table opens.
+/// The arguments of the function that opens a codec.
 struct AssetSource {
   const StreamEntry& entry;
   uint32_t asset;
   AssetContext& context;
 };
 
-// A file each, named as the function.
+// Each has a file of its own: light_slices.cpp, mesh_splits.cpp, texture_file.cpp.
 Result<std::unique_ptr<AssetDecoder>> open_light_slices(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_mesh_splits(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_texture_file(const AssetSource& source);

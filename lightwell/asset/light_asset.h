@@ -10,25 +10,24 @@
 
 namespace lightwell {
 
-/// A light grid, by whichever codec: hands it over with its holes filled. A codec derives from it and says how a block
-/// is decoded.
+/// A light grid of any codec, whose missing nodes are filled for each update. Derived classes decode the blocks.
 class LightAsset : public AssetDecoder {
  public:
   static constexpr StreamKind kind = StreamKind::light;
 
   /// The known nodes, irradiance in W/m2; the others are dark.
   virtual const LightGrid& grid() const = 0;
-  /// A byte a node: 1 where grid() holds the node.
+  /// One byte per node: 1 where the node is known.
   virtual std::span<const uint8_t> known() const = 0;
-  /// Number of nodes known.
+  /// Number of known nodes.
   virtual size_t received() const = 0;
 
   uint64_t added() const final { return received(); }
   bool complete() const final { return received() == total(); }
-  /// True unless an eighth more nodes are there than the last time, or all: so the cost of filling is spread over the
-  /// stream, however small its blocks are.
+  /// False once an eighth more nodes are known than at the last settle(), or all are. This spreads the cost of filling
+  /// over the stream, however small its blocks are.
   bool settled() const final;
-  /// Fills the holes and writes the atlas.
+  /// Fills the missing nodes and writes the atlas.
   bool settle() final;
   std::optional<Update> take(size_t budget) final;
   uint64_t decoded() const final { return received(); }
@@ -41,8 +40,8 @@ class LightAsset : public AssetDecoder {
   uint32_t asset_;
   Fill fill_;
   LightAtlas atlas_;
-  size_t settled_ = 0;  ///< nodes in the atlas
-  size_t taken_ = 0;    ///< nodes in the atlas that was handed over
+  size_t settled_ = 0;  ///< known nodes in the atlas
+  size_t taken_ = 0;    ///< known nodes in the atlas last taken
 };
 
 }  // namespace lightwell

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The light codec light_codec_slices: records of moments, some of every slice at a time (light/stream.h).
+// The light codec light_codec_slices: records of moments in the order of slices (light/stream.h).
 #include "lightwell/asset/codecs.h"
 #include "lightwell/asset/light_asset.h"
 #include "lightwell/light/stream.h"
@@ -26,7 +26,7 @@ class LightSlices final : public LightAsset {
 }  // namespace
 
 Result<std::unique_ptr<AssetDecoder>> open_light_slices(const AssetSource& source) {
-  // The decoder's and the atlas's 250 bytes a node, and as much again while holes are filled.
+  // 250 bytes a node for the decoder and the atlas, and as much again while missing nodes are filled.
   constexpr uint64_t bytes_a_node = 500;
   LW_TRY(layout, LightLayout::read(source.entry.parameters));
   LW_CHECK(source.context.spend(layout.shape.count() * bytes_a_node));

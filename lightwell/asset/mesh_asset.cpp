@@ -26,13 +26,14 @@ Bytes bytes_of(const MeshBuffers& buffers, Semantic semantic) {
 
 }  // namespace
 
-MeshAsset::MeshAsset(uint32_t asset, const MeshLayout& layout) : asset_(asset), layout_(layout) {
+MeshAsset::MeshAsset(uint32_t asset, const MeshParameters& parameters)
+    : asset_(asset), layout_(parameters.layout), places_(parameters.places) {
   using Component = AttributeLayout::Component;
   attributes_.push_back({Semantic::position, Component::f32, 3, false, 12});
-  if (layout.has_normals) attributes_.push_back({Semantic::normal, Component::i16, 3, true, 8});
-  if (layout.has_texcoords[0]) attributes_.push_back({Semantic::texcoord_0, Component::f32, 2, false, 8});
-  if (layout.has_texcoords[1]) attributes_.push_back({Semantic::texcoord_1, Component::f32, 2, false, 8});
-  if (layout.has_colors) attributes_.push_back({Semantic::color, Component::u16, 4, true, 8});
+  if (layout_.has_normals) attributes_.push_back({Semantic::normal, Component::i16, 3, true, 8});
+  if (layout_.has_texcoords[0]) attributes_.push_back({Semantic::texcoord_0, Component::f32, 2, false, 8});
+  if (layout_.has_texcoords[1]) attributes_.push_back({Semantic::texcoord_1, Component::f32, 2, false, 8});
+  if (layout_.has_colors) attributes_.push_back({Semantic::color, Component::u16, 4, true, 8});
 }
 
 Result<void> MeshAsset::append(Bytes payload) {
@@ -69,7 +70,7 @@ void MeshAsset::start_batch() {
   batch_ = true;
 }
 
-/// Puts some elements of `stride` bytes of a buffer, numbered as in RangeUpdate, into the batch. The layout's limits
+/// Adds a range of elements of `stride` bytes to the batch; `buffer` is numbered as in RangeUpdate. The layout's limits
 /// keep offsets below 4 GiB.
 void MeshAsset::enqueue(uint32_t buffer, Bytes bytes, uint32_t stride, BufferRange range) {
   if (range.count == 0) return;
@@ -77,7 +78,7 @@ void MeshAsset::enqueue(uint32_t buffer, Bytes bytes, uint32_t stride, BufferRan
   ranges_.push_back(RangeUpdate{asset_, buffer, offset, bytes.subspan(offset, size_t(range.count) * stride)});
 }
 
-/// The next of the ranges, or as much of it as fits.
+/// The next range, or as much of it as `budget` allows.
 RangeUpdate MeshAsset::next_range(size_t budget) {
   RangeUpdate& range = ranges_.back();
   const size_t length = std::max<size_t>(budget / 4 * 4, 4);

@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "lightwell/asset/asset.h"
+#include "lightwell/mesh/base_places.h"
 #include "lightwell/mesh/stream.h"
 #include "lightwell/pack/directory.h"
 
 namespace lightwell {
 
-/// The buffers of a mesh as far as they are decoded: `vertices` and `faces` of them may be drawn. Absent attributes are
-/// empty.
+/// The buffers of a mesh as far as they are decoded: the first `vertices` and `faces` may be drawn. Absent attributes
+/// are empty.
 struct MeshBuffers {
   uint32_t vertices = 0;
   uint32_t faces = 0;
@@ -22,13 +23,14 @@ struct MeshBuffers {
   std::span<const uint32_t> indices;  ///< three a face
 };
 
-/// A mesh, by whichever codec: hands over what the codec decodes. A codec derives from it and says how a block is
-/// decoded.
+/// A mesh of any codec: returns updates for what has been decoded. Derived classes decode the blocks.
 class MeshAsset : public AssetDecoder {
  public:
   static constexpr StreamKind kind = StreamKind::mesh;
 
   const MeshLayout& layout() const { return layout_; }
+  /// Where the arrays of the coarsest level lie in the opening.
+  const BasePlaces& places() const { return places_; }
   virtual MeshBuffers buffers() const = 0;
 
   bool accepts() const final { return !batch_; }
@@ -36,17 +38,17 @@ class MeshAsset : public AssetDecoder {
   uint64_t added() const final { return buffers().vertices; }
   bool complete() const final;
   std::optional<Update> announce() final;
-  /// A batch of all changes since the last one, in pieces. Its order keeps every moment drawable: the new vertices, the
-  /// new faces, then old faces that may refer to the new vertices, and the draw count last.
+  /// Returns all changes since the last batch, in pieces. Their order keeps the mesh drawable at every moment: new
+  /// vertices, new faces, older faces that may refer to the new vertices, and the draw count last.
   std::optional<Update> take(size_t budget) final;
   uint64_t decoded() const final { return buffers().faces; }
   uint64_t total() const final { return layout_.faces; }
 
  protected:
-  MeshAsset(uint32_t asset, const MeshLayout& layout);
+  MeshAsset(uint32_t asset, const MeshParameters& parameters);
 
   virtual Result<void> decode(Bytes payload) = 0;
-  /// What has changed in the buffers since the last call.
+  /// The changes in the buffers since the last call.
   virtual MeshChanges take_changes() = 0;
 
  private:
@@ -56,10 +58,11 @@ class MeshAsset : public AssetDecoder {
 
   uint32_t asset_;
   MeshLayout layout_;
+  BasePlaces places_;
   std::vector<AttributeLayout> attributes_;
   bool changed_ = true;
-  bool batch_ = false;               ///< a hand-over is under way
-  std::vector<RangeUpdate> ranges_;  ///< what is left of it before the draw count, the next one last
+  bool batch_ = false;               ///< a batch is being taken
+  std::vector<RangeUpdate> ranges_;  ///< of the batch, before its draw count; the next one is last
 };
 
 }  // namespace lightwell

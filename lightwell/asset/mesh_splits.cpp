@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mesh codec mesh_codec_splits: vertex splits behind a coarsest level that lies in the opening (mesh/stream.h).
+// The mesh codec mesh_codec_splits: vertex splits that refine the coarsest level in the opening (mesh/stream.h).
 #include "lightwell/asset/codecs.h"
 #include "lightwell/asset/mesh_asset.h"
-#include "lightwell/mesh/base_places.h"
 
 namespace lightwell {
 namespace {
 
 class MeshSplits final : public MeshAsset {
  public:
-  MeshSplits(uint32_t asset, MeshDecoder decoder) : MeshAsset(asset, decoder.layout()), decoder_(std::move(decoder)) {}
+  MeshSplits(uint32_t asset, const MeshParameters& parameters, MeshDecoder decoder)
+      : MeshAsset(asset, parameters), decoder_(std::move(decoder)) {}
 
   MeshBuffers buffers() const override {
     return {decoder_.vertices(),
@@ -37,7 +37,7 @@ Result<std::unique_ptr<AssetDecoder>> open_mesh_splits(const AssetSource& source
   LW_CHECK(source.context.spend(parameters.layout.buffer_bytes()));
   LW_TRY(base, BaseArrays::read(parameters.layout, parameters.places, source.context.bin));
   LW_TRY(decoder, MeshDecoder::open(parameters.layout, base.view(), source.entry.length));
-  return std::make_unique<MeshSplits>(source.asset, std::move(decoder));
+  return std::make_unique<MeshSplits>(source.asset, parameters, std::move(decoder));
 }
 
 }  // namespace lightwell

@@ -9,14 +9,13 @@
 
 namespace lightwell {
 
-/// An image, by whichever codec: hands its file over when it is complete. A codec derives from it and says how a block
-/// is decoded.
+/// An image of any codec: returns its file once it is complete. Derived classes decode the blocks.
 class TextureAsset : public AssetDecoder {
  public:
   static constexpr StreamKind kind = StreamKind::texture;
 
   virtual const TextureParameters& parameters() const = 0;
-  /// What has arrived: when complete, the image file.
+  /// The bytes decoded so far; when complete, the image file.
   virtual const std::vector<uint8_t>& file() const = 0;
 
   uint64_t added() const final { return file().size(); }

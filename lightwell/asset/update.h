@@ -7,31 +7,33 @@
 #include <vector>
 
 #include "lightwell/base/bytes.h"
+#include "lightwell/base/result.h"
 
 namespace lightwell {
 
-/// What a viewer is handed, in the order in which it has to be applied: by a client the opening, what decoders hand
-/// over of their assets, and the end. Bytes are views into the client or the decoder, good until its next call. `asset`
-/// is numbered as asset_of_stream() says (asset/asset.h).
+/// The updates for a viewer, which must be applied in order: the opening (from the client), updates of assets (from
+/// their decoders), and the end. Bytes are views into the client or the decoder, valid until its next call. `asset` is
+/// the number from asset_of_stream() (asset/asset.h).
 
 /// The opening: a GLB for a glTF loader. Comes once, first.
 struct OpeningUpdate {
   Bytes glb;
 };
 
-/// One attribute of a mesh's vertices, an array of its own.
+/// An attribute of a mesh's vertices, in an array of its own.
 struct AttributeLayout {
   enum class Semantic : uint8_t { position, normal, texcoord_0, texcoord_1, color };
   enum class Component : uint8_t { i8, u8, i16, u16, f32 };
 
   Semantic semantic = Semantic::position;
   Component component = Component::f32;
-  uint8_t components = 3;   ///< numbers a vertex, without padding
+  uint8_t components = 3;   ///< numbers per vertex, without padding
   bool normalized = false;  ///< as in glTF
-  uint8_t stride = 12;      ///< bytes from a vertex to the next: a multiple of 4
+  uint8_t stride = 12;      ///< bytes from one vertex to the next: a multiple of 4
 };
 
-/// A mesh's buffers in their final sizes, to be allocated once; comes before any other update of the mesh.
+/// The final sizes of a mesh's buffers, which thus need to be allocated only once. Precedes all other updates of the
+/// mesh.
 struct MeshUpdate {
   uint32_t asset = 0;
   uint32_t vertices = 0;
@@ -49,16 +51,16 @@ struct RangeUpdate {
   Bytes data;
 };
 
-/// The mesh may be drawn with this many vertices and faces: comes behind the ranges that make it so.
+/// The number of vertices and faces that may be drawn from now on. Follows the ranges that provide them.
 struct DrawUpdate {
   uint32_t asset = 0;
   uint32_t vertices = 0;
   uint32_t faces = 0;
 };
 
-/// A light grid as a whole, as the half-float RGBA texture of light/atlas.h. Its eight corner nodes come with the
-/// opening, mostly with the first block behind it: who calls a client's take() after each work() has that light before
-/// anything else is decoded.
+/// A whole light grid as the half-float RGBA texture of light/atlas.h. The first update follows the opening with the
+/// eight corner nodes and, usually, the first block: a driver that calls Client::take() after each work() gets it
+/// before anything else is decoded.
 struct LightUpdate {
   uint32_t asset = 0;
   uint32_t width = 0;
@@ -77,18 +79,22 @@ struct TextureUpdate {
   Bytes file;
 };
 
-/// Everything has been received and handed over.
+/// Everything has been received and taken.
 struct CompleteUpdate {};
 
-/// The client can do no more. What was handed over stays good.
+/// The client has given up. Earlier updates stay valid.
 struct FailureUpdate {
   enum class Reason : uint8_t {
     unreadable,  ///< not a pack, another version, or damaged
-    replaced,    ///< the file changed while it was read: a new client may start anew
-    refused      ///< the server will not give the file
+    replaced,    ///< the file changed while it was read; a new client may start over
+    refused      ///< the server refuses to send the file
   };
   Reason reason = Reason::unreadable;
+  ErrorKind kind = ErrorKind::bad_input;
   std::string message;
+
+  /// The failure of a file that cannot be read because of `error`.
+  static FailureUpdate unreadable(const Error& error) { return {Reason::unreadable, error.kind, error.message()}; }
 };
 
 using Update = std::variant<OpeningUpdate, MeshUpdate, RangeUpdate, DrawUpdate, LightUpdate, TextureUpdate,

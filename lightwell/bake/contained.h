@@ -9,8 +9,8 @@
 
 namespace lightwell {
 
-/// Which luminaires' direct light the grids of a pack hold: those of the `world` of the pack's own scene at any level.
-/// All but the `lamps` that the client lights, and the environment where the grids contain it.
+/// The luminaires whose direct light is in the grids of a pack: all but the `lamps` that the client lights, and the
+/// environment only where the grids contain it. `world` is that of the pack's own scene at any level.
 LuminaireSet contained_luminaires(std::span<const ClientLamp> lamps, const GridContents& contents, const World& world);
 
 }  // namespace lightwell

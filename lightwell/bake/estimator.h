@@ -10,8 +10,8 @@
 
 namespace lightwell {
 
-/// What an estimator has added up over some of its samples. Sums of disjoint samples add up to the same bits in any
-/// order, whether threads, runs or machines made them: they are integers, or of finished nodes.
+/// An estimator's sum over some of its samples. Sums of disjoint samples add up to the same bits in any order,
+/// whichever threads, runs or machines made them: they hold integers or complete nodes.
 class PartialLight {
  public:
   virtual ~PartialLight() = default;
@@ -22,30 +22,30 @@ class PartialLight {
 /// The light at the nodes of a grid.
 struct NodeLight {
   std::vector<Moments> moments;  ///< W/m2; zeros at invalid nodes
-  float noise = 0;               ///< root mean square error by chance, as a share of the root mean square of the light
-  uint64_t rays = 0;             ///< that it took
+  float noise = 0;               ///< root mean square noise, relative to the root mean square of the light
+  uint64_t rays = 0;             ///< that were traced
 };
 
-/// A way to estimate the light at the nodes of a grid, from samples that do not depend on each other: photons, or
-/// nodes. Threads may share it.
+/// Estimates the light at the nodes of a grid from samples that do not depend on each other: photons or nodes. Threads
+/// may share it.
 class Estimator {
  public:
   virtual ~Estimator() = default;
-  /// How many samples there are.
+  /// The number of samples.
   virtual uint64_t samples() const = 0;
-  /// What they are: "photons", "nodes".
+  /// The name of the samples: "photons", "nodes".
   virtual std::string_view unit() const = 0;
-  /// The sum of no samples.
+  /// An empty sum.
   virtual std::unique_ptr<PartialLight> nothing() const = 0;
-  /// How much memory such a sum takes.
+  /// The memory that a sum takes, bytes.
   virtual size_t partial_bytes() const = 0;
   /// Adds the samples begin ... end-1 to a sum of this estimator.
   virtual void add(uint64_t begin, uint64_t end, PartialLight& sum) const = 0;
-  /// The light that the sum of all samples stands for.
+  /// The light at the nodes, from the sum of all samples.
   virtual NodeLight finish(const PartialLight& whole, const NodeSpace& space) const = 0;
 };
 
-/// What an estimator is told.
+/// Options of an estimator.
 struct EstimatorOptions {
   uint64_t photons = 8'000'000;
   uint64_t seed = 1;
@@ -53,11 +53,11 @@ struct EstimatorOptions {
   LuminaireSet contained;
 };
 
-/// A row of the table of estimators. A new one is a file and a row.
+/// A row of the table of estimators. A new estimator is a new file and a row.
 struct EstimatorKind {
   const char* name;
   const char* help;  ///< a few words for the command line
-  /// World and options outlive the estimator.
+  /// World and options must outlive the estimator.
   std::unique_ptr<Estimator> (*make)(const World& world, const GridShape& shape, const EstimatorOptions& options);
 };
 

@@ -7,12 +7,12 @@
 namespace lightwell {
 namespace {
 
-/// A scene from which a smaller share of the flights escapes is closed.
+/// A scene is closed if a smaller share of the flights escapes.
 constexpr double closed_escapes = 1e-3;
-/// Photons after which it is looked whether they tell enough. So many tell whether a scene is closed.
+/// Photons traced between checks whether there are enough. One batch is enough to tell whether a scene is closed.
 constexpr uint64_t batch = 1 << 16;
 
-/// What one thread has seen.
+/// The observations of one thread.
 struct Sightings {
   Solids::Hits hits;
   uint64_t flights = 0;
@@ -56,7 +56,7 @@ Result<FreeSpace> FreeSpace::survey(const World& world, const SurveyOptions& opt
     sum = {space.solids_.no_hits()};
     for (const Sightings& of_thread : seen) sum += of_thread;
   }
-  // There is no flight at all when every photon began where its source is black.
+  // There is no flight at all if every photon began where its source is black.
   space.closed_ =
       sum.flights > 0 && static_cast<double>(sum.escaped) < closed_escapes * static_cast<double>(sum.flights);
   space.solids_.decide(sum.hits);

@@ -58,7 +58,7 @@ struct AreaMoments {
   double uu = 0, uv = 0, vv = 0;
 };
 
-// A triangle's are area / 12 (a a' + b b' + c c' + (a + b + c)(a + b + c)').
+// A triangle adds area / 12 (a a' + b b' + c c' + (a + b + c)(a + b + c)').
 AreaMoments second_moments(const Shape& shape, const Vec3d& u, const Vec3d& v) {
   AreaMoments sum;
   for (size_t i = 0; i < shape.facets.size(); i++) {
@@ -76,12 +76,12 @@ AreaMoments second_moments(const Shape& shape, const Vec3d& u, const Vec3d& v) {
   return sum;
 }
 
-// The direction in the plane of a flat surface in which most of it lies far from the centre.
+// The direction of the largest second moment of a flat surface, in its plane.
 Vec3d principal_axis(const Shape& shape, const Vec3d& normal) {
   const Vec3d helper = std::abs(normal[1]) < 0.9 ? Vec3d{{0, 1, 0}} : Vec3d{{1, 0, 0}};
   const Vec3d u = normalized(cross(helper, normal)), v = cross(normal, u);
   const auto [uu, uv, vv] = second_moments(shape, u, v);
-  // A square's moments are the same in all directions: the axes of the room serve it.
+  // A square's moments are equal in all directions; the axes of the scene serve instead.
   const bool round = std::hypot(uu - vv, 2 * uv) < 1e-3 * (uu + vv);
   const double angle = round ? 0 : std::atan2(2 * uv, uu - vv) / 2;
   return u * std::cos(angle) + v * std::sin(angle);
@@ -93,13 +93,13 @@ double half_width(const Shape& shape, const Vec3d& direction) {
   return widest;
 }
 
-// The rectangle of the surface's own area in its plane, along its principal axes; none when it is not flat.
+// A rectangle of the surface's area in its plane, along its principal axes; none when it is not flat.
 std::optional<ClientLamp> as_rectangle(const Shape& shape) {
   if (!is_flat(shape)) return {};
   const Vec3d normal = normalized(shape.normal_sum);
   const Vec3d along = principal_axis(shape, normal), across = cross(normal, along);
   const double half_u = half_width(shape, along), half_v = half_width(shape, across);
-  // The rectangle around it may be larger: a disc covers pi/4 of its square.
+  // The bounding rectangle may be larger: a disc covers pi/4 of its square.
   const double shrink = std::sqrt(shape.area / std::max(4 * half_u * half_v, 1e-30));
   ClientLamp lamp;
   lamp.kind = ClientLamp::Kind::rectangle;
@@ -109,8 +109,8 @@ std::optional<ClientLamp> as_rectangle(const Shape& shape) {
   return lamp;
 }
 
-// The sphere of the surface's own area. None when the surface is open, or when more than a tenth of it lies in planes
-// less than half as far from the centre as its farthest point: a cube passes (0.58), a tube or a dome does not.
+// A sphere of the surface's area. None when the surface is open, or when more than a tenth of it lies in planes less
+// than half as far from the centre as its farthest point: a cube passes (0.58), a tube or a dome does not.
 std::optional<ClientLamp> as_sphere(const Shape& shape) {
   if (length(shape.normal_sum) > 0.1 * shape.area) return {};
   const double farthest = extent(shape);
@@ -134,7 +134,7 @@ std::optional<ClientLamp> describe_surface(const TraceScene& scene, const Lumina
   lamp->name = scene.scene().material_of(primitive).name;
   lamp->center = luminaire.center;
   lamp->two_sided = luminaire.double_sided && lamp->kind == ClientLamp::Kind::rectangle;
-  // Of what a double-sided surface sends out, each side has half; nobody sees the inside of a sphere.
+  // A double-sided surface emits half of its power on each side; the inside of a sphere is never seen.
   lamp->radiance = luminaire.power / (pi * luminaire.area * (luminaire.double_sided ? 2.0f : 1.0f));
   lamp->luminaire = luminaire.id;
   return lamp;

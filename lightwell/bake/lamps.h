@@ -8,18 +8,18 @@
 
 namespace lightwell {
 
-/// Who lights what: the light of the client's lamps is bounced into the grid only; that of the other luminaires, which
-/// the client does not know, goes into the grid from its first flight on. So no light is missing or counted twice.
+/// How luminaires are divided between the client and the grid. For the client's lamps the grid holds only the bounced
+/// light; for the others, which the client does not know, it also holds the direct light. So no light is missing or
+/// counted twice.
 struct LampPlan {
   std::vector<ClientLamp> client;  ///< the strongest first
   /// The luminaires whose direct light the grid holds as well (EstimatorOptions::contained).
   LuminaireSet contained;
 };
 
-/// Splits a scene's luminaires: of those that give light, the `most` strongest that a rectangle, a sphere or a punctual
-/// lamp describes are the client's. A piece of emissive surface is a rectangle when it lies in one plane, a sphere when
-/// it is closed and about as far from its centre everywhere; one of any other form is the grid's, and so is the
-/// environment.
+/// Divides a scene's luminaires: the client gets the `most` strongest that emit light and that a rectangle, a sphere or
+/// a punctual lamp describes. A piece of emissive surface is a rectangle when it lies in one plane, a sphere when it is
+/// closed and about equally far from its centre everywhere. Other shapes and the environment go to the grid.
 LampPlan plan_lamps(const World& world, size_t most = 16);
 
 }  // namespace lightwell

@@ -13,7 +13,7 @@
 namespace lightwell {
 namespace {
 
-/// What the threads' sums may take together, bytes; beyond that fewer threads add up.
+/// The memory that the threads' sums may take together, bytes; where it does not suffice, fewer threads add up.
 constexpr size_t sums_limit = size_t(768) << 20;
 /// Samples that a thread takes at a time.
 constexpr size_t samples_at_a_time = 4096;

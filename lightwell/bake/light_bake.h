@@ -18,14 +18,14 @@ struct LightBakeStatistics {
   uint64_t rays = 0;
   double seconds = 0;
   size_t invalid_nodes = 0;
-  /// The noise of the grid, as a share of its root mean square irradiance (docs/light.md section 4). Says nothing of
-  /// the blur by the nodes' boxes.
+  /// The noise of the grid, as a share of its root mean square irradiance (docs/light.md section 4). Excludes the blur
+  /// by the nodes' boxes.
   float estimated_error = 0;
 };
 
-/// Bakes the light of a world into a grid: places the grid's nodes, finds out what is free space, and lets an estimator
-/// fill in the light. The same world and options give the same grid for any number of threads. Fails when nothing
-/// shines, when the grid has more nodes than a pack can hold, or when `progress` asks to stop.
+/// Bakes the light of a world into a grid: places the nodes, determines the free space, and lets an estimator fill in
+/// the light. The same world and options give the same grid for any number of threads. Fails when nothing shines, when
+/// the grid has more nodes than a pack can hold, or when `progress` is cancelled.
 Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                              LightBakeStatistics& statistics);
 

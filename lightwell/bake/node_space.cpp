@@ -9,7 +9,7 @@
 namespace lightwell {
 namespace {
 
-/// A node with less of its box free stands in a solid; what light it got says more of chance than of the scene.
+/// A node with a smaller free share counts as inside a solid: its light is mostly noise.
 constexpr float least_free_share = 0.05f;
 
 bool is_free(const TraceScene& scene, const FreeSpace& space, const Vec3f& point, Random& random) {
@@ -18,7 +18,7 @@ bool is_free(const TraceScene& scene, const FreeSpace& space, const Vec3f& point
   return !space.from_inside(hit);
 }
 
-/// The share of side^3 points, one in each part of the box.
+/// The free share of side^3 points, one in each part of the box.
 float free_share(const TraceScene& scene, const FreeSpace& space, const Box3f& box, int side, Random& random) {
   int free = 0;
   for (int i = 0; i < side * side * side; i++) {
@@ -40,7 +40,7 @@ NodeSpace measure_node_space(const TraceScene& scene, const FreeSpace& space, co
       Random random(seed, node);
       const Box3f box = node_box(shape, node);
       float share = free_share(scene, space, box, 4, random);
-      // The light is divided by the share: the smaller it is, the more points it takes to be right by a few percent.
+      // The light is divided by the share: the smaller it is, the more points it takes to know it within a few percent.
       if (share > 0 && share < 1) share = free_share(scene, space, box, share < 0.25f ? 16 : 10, random);
       nodes.free_share[node] = share;
       nodes.valid[node] = share >= least_free_share && !is_in_thin_wall(scene, space, shape, node);

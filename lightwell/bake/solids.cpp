@@ -7,19 +7,19 @@
 namespace lightwell {
 namespace {
 
-/// Of the volume of a ball with the same surface: a sheet has none, a pane of 1 m and 4 mm 2 %.
+/// Least volume of a solid, relative to a ball of the same area: a sheet has 0, a pane 1 m square and 4 mm thick 1.5 %.
 constexpr double least_volume = 1e-3;
-/// Fewer photons say nothing of one in a thousand.
+/// Fewer hits cannot show a share of one in a thousand.
 constexpr uint64_t least_hits = 1000;
-/// More tell a share of one in a thousand from one of two in a thousand, by four standard deviations.
+/// Enough hits to tell a share of one in a thousand from two in a thousand, by four standard deviations.
 constexpr uint64_t enough_hits = 16 * least_hits;
 
-/// What the faces of a piece add up to.
+/// Sums over the faces of a piece.
 struct Extent {
   double area = 0;
   Vec3d center{};      // times the area
-  Vec3d normal_sum{};  // halves of cross products
-  double moment = 0;   // the volume against the origin
+  Vec3d normal_sum{};  // sum of area vectors
+  double moment = 0;   // signed volume between the faces and the origin
 };
 
 Extent& operator+=(Extent& sum, const std::array<Vec3d, 3>& corners) {
@@ -33,7 +33,8 @@ Extent& operator+=(Extent& sum, const std::array<Vec3d, 3>& corners) {
   return sum;
 }
 
-/// The volume below the surface against its own centre, so that an open one has no other for standing elsewhere.
+/// Whether the volume between the surface and its own centre is large enough. For an open surface, which has no volume
+/// of its own, measuring from the centre makes the result independent of its place.
 bool encloses_volume(const Extent& piece) {
   if (!(piece.area > 0)) return false;
   const double volume = piece.moment - dot(piece.center / piece.area, piece.normal_sum) / 3;

@@ -9,15 +9,15 @@
 
 namespace lightwell {
 
-/// Which surfaces bound the inside of a solid on their back. Those that are not double-sided all do. Many files declare
-/// solids double-sided, so of the connected pieces of double-sided surface those count too that enclose some volume and
-/// whose back photons practically never reach: of the photons that meet the piece, in all its instances, less than one
-/// in a thousand comes from behind.
+/// Tells which surfaces have the inside of a solid behind them. Those that are not double-sided all do. Many files
+/// declare solids double-sided, so a connected piece of double-sided surface counts, too, if it encloses some volume
+/// and photons practically never reach its back: in all its instances together, at most one hit on the back for a
+/// thousand on the front.
 class Solids {
  public:
   explicit Solids(const TraceScene& scene);
 
-  /// How many photons met each piece of double-sided surface, one count a piece for each side.
+  /// The numbers of photons that hit the front and the back of each piece of double-sided surface.
   struct Hits {
     std::vector<uint64_t> front, back;
 
@@ -25,9 +25,9 @@ class Solids {
   };
   Hits no_hits() const;
   void count(const Hit& hit, Hits& hits) const;
-  /// True when so many hits are enough to decide by.
+  /// True when there are enough hits to decide by.
   bool settled(const Hits& hits) const;
-  /// Decides by all hits which pieces are solid. Before, none is.
+  /// Decides from all hits which pieces are solid. Until then none is.
   void decide(const Hits& hits);
 
   /// True when a ray that ends at this hit began inside a solid.
@@ -38,9 +38,9 @@ class Solids {
   std::optional<size_t> piece(const Hit& hit) const;
 
   const TraceScene& scene_;
-  std::vector<std::vector<uint32_t>> pieces_of_faces_;  // of each primitive that is double-sided; else empty
+  std::vector<std::vector<uint32_t>> pieces_of_faces_;  // of each primitive; empty unless double-sided
   std::vector<size_t> first_piece_;                     // of each primitive
-  std::vector<uint8_t> encloses_;                       // of each piece: it has an inside
+  std::vector<uint8_t> encloses_;                       // of each piece: whether it has an inside
   std::vector<uint8_t> solid_;                          // of each piece
 };
 

@@ -7,16 +7,16 @@
 namespace lightwell {
 namespace {
 
-constexpr int lines = 24;                            // that probe an axis, on each of the two others
+constexpr int lines = 24;                            // probe lines along an axis, counted on each of the two others
 constexpr int most_walls = 64;                       // on a line
-constexpr size_t worth_a_node = lines * lines / 20;  // that must gain by it, for an axis to get more nodes
+constexpr size_t worth_a_node = lines * lines / 20;  // walls that must gain a node before an axis gets more nodes
 
-/// Where a line enters a solid and leaves it again, from the region's face, metres.
+/// Where a line enters and leaves a solid, in metres from the region's face.
 struct Wall {
   float from, to;
 };
 
-/// The walls on a line along an axis that are thinner than `thickness`.
+/// Adds the walls on a line that are thinner than `thickness`.
 void add_walls(const TraceScene& scene, Ray line, float thickness, std::vector<Wall>& walls) {
   Random random(0, 0);
   float travelled = 0;
@@ -32,7 +32,7 @@ void add_walls(const TraceScene& scene, Ray line, float thickness, std::vector<W
   }
 }
 
-/// The thin walls that lines along an axis meet, evenly spread over the region.
+/// The thin walls on lines along an axis that are spread evenly over the region.
 std::vector<Wall> walls_across(const TraceScene& scene, const Box3f& region, int axis, float thickness) {
   std::vector<Wall> walls;
   const int side = (axis + 1) % 3, other = (axis + 2) % 3;
@@ -48,7 +48,7 @@ std::vector<Wall> walls_across(const TraceScene& scene, const Box3f& region, int
   return walls;
 }
 
-/// How many of the walls no node lies in, of nodes a distance of `cell` apart.
+/// The number of walls in which no node lies, for nodes a distance of `cell` apart.
 size_t missed(const std::vector<Wall>& walls, float cell) {
   const float margin = 1e-3f * cell;
   size_t count = 0;
@@ -82,7 +82,7 @@ GridShape grid_of_walls(const World& world, int longest) {
 }
 
 bool is_in_thin_wall(const TraceScene& scene, const FreeSpace& space, const GridShape& shape, size_t node) {
-  const Vec3f position = node_box(shape, node).center();  // within the scene, as a node at its face is not
+  const Vec3f position = node_box(shape, node).center();  // inside the region, also for a node on its face
   Random random(0, node);
   const auto meets_back = [&](int axis, float way) {
     Ray ray{.origin = position, .far = shape.cell[axis] / 2};

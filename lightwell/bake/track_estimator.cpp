@@ -7,7 +7,7 @@
 namespace lightwell {
 namespace {
 
-/// Photons of even and of odd index apart: the difference of the two half estimates tells the noise.
+/// Separate sums of the photons of even and of odd index: the difference of the two half estimates gives the noise.
 struct HalfSums : public PartialLight {
   explicit HalfSums(const GridShape& shape) : halves{TrackSums(shape), TrackSums(shape)} {}
 
@@ -21,7 +21,7 @@ struct HalfSums : public PartialLight {
   uint64_t flights = 0;
 };
 
-/// The mean of the half estimates at the valid nodes, nothing at the others.
+/// The mean of the half estimates at the valid nodes, zeros at the others.
 std::vector<Moments> mean_of_halves(const std::vector<Moments>& a, const std::vector<Moments>& b,
                                     const std::vector<uint8_t>& valid) {
   std::vector<Moments> mean(a.size());
@@ -33,7 +33,7 @@ std::vector<Moments> mean_of_halves(const std::vector<Moments>& a, const std::ve
   return mean;
 }
 
-/// The noise of (a + b) / 2 as a share of its size, over the six E of the valid nodes.
+/// The noise of (a + b) / 2 relative to its root mean square, over the six E of the valid nodes.
 float relative_noise(const std::vector<Moments>& a, const std::vector<Moments>& b, const std::vector<uint8_t>& valid) {
   double difference = 0, size = 0;
   for (size_t node = 0; node < a.size(); node++) {
@@ -66,7 +66,8 @@ class TrackEstimator : public Estimator {
       Flight flight;
       for (PhotonWalk walk(world_, options_.seed, photon); walk.next(flight);) {
         sums.flights++;
-        // Light from the back of a surface would be met by a node's rays as the inside of a solid, see NodeSpace.
+        // Light that leaves the back of a surface is ignored: the rays of measure_node_space count the space there as
+        // inside a solid.
         if ((flight.bounces == 0 && !options_.contained.contains(flight.luminaire)) || flight.from_back) continue;
         sums.halves[photon % 2].deposit(flight.origin, flight.direction, flight.length, flight.flux / reference_flux_);
       }
@@ -75,7 +76,7 @@ class TrackEstimator : public Estimator {
 
   NodeLight finish(const PartialLight& whole, const NodeSpace& space) const override {
     const auto& sums = static_cast<const HalfSums&>(whole);
-    // A half holds half of the photons, one more of even index when their number is odd.
+    // If the number of photons is odd, the even half has one more.
     const uint64_t odd = options_.photons / 2;
     const auto moments = [&](size_t half, uint64_t photons) {
       return sums.halves[half].moments(reference_flux_ / static_cast<float>(photons), space.free_share);
@@ -88,7 +89,7 @@ class TrackEstimator : public Estimator {
   const World& world_;
   const GridShape shape_;
   const EstimatorOptions& options_;
-  const float reference_flux_;  ///< that a deposit of weight 1 stands for: the scene's power, a photon's mean flux
+  const float reference_flux_;  ///< flux of weight 1: the scene's power, about a photon's mean flux
 };
 
 }  // namespace

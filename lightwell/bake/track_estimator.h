@@ -5,7 +5,7 @@
 
 namespace lightwell {
 
-/// Photons fly through the scene; the lengths of their flights through a node's box, divided by the free part of its
+/// The track-length estimator: the lengths of photons' flights through a node's box, divided by the free part of its
 /// volume, give the node's light (docs/decisions/003-track-estimator.md). A sample is a photon.
 std::unique_ptr<Estimator> make_track_estimator(const World& world, const GridShape& shape,
                                                 const EstimatorOptions& options);

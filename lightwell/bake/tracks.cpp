@@ -6,15 +6,15 @@
 namespace lightwell {
 namespace {
 
-/// A deposit is counted in this share of weight * length / unit: a flight through a whole box is right to 1.2e-7, and
-/// no deposit of a weight up to max_weight overflows 32 bits.
+/// Integer steps per weight * length / unit_: a flight through a whole box is accurate to 1.2e-7, and no deposit of a
+/// weight up to max_weight overflows 32 bits.
 constexpr float resolution = 0x1p22f;
 constexpr float max_weight = 256;
 
-/// To the nearest integer, halves away from 0; the compiler turns it into vector instructions, unlike lrint.
+/// Rounds to the nearest integer, halves away from 0; unlike lrint, it compiles to vector instructions.
 int32_t rounded(float x) { return static_cast<int32_t>(x + std::copysign(0.5f, x)); }
 
-/// 0 for a direction in the plane between two half-spaces: light that lies in it exactly (a sun's) is of neither.
+/// The sign, 0 for 0: light exactly in the plane between two half-spaces, as a sun's may be, belongs to neither.
 float sign(float x) { return static_cast<float>((x > 0) - (x < 0)); }
 
 /// The nine moments of a unit of light that arrives from the unit direction w (docs/light.md section 1).
@@ -57,7 +57,7 @@ class BoxWalk {
   bool empty() const { return !(begin_ < end_); }
   size_t node() const { return node_; }
 
-  /// Goes to the next box; returns the length in the one that was left. The walk is over when `empty`.
+  /// Goes to the next box; returns the length in the previous one. The walk is over when empty().
   float advance() {
     const int axis = cross_[0] < cross_[1] ? (cross_[0] < cross_[2] ? 0 : 2) : (cross_[1] < cross_[2] ? 1 : 2);
     const float leave = std::clamp(cross_[axis], begin_, end_);
@@ -69,7 +69,7 @@ class BoxWalk {
   }
 
  private:
-  /// Cuts the ray to the grid: boxes of nodes at its faces are halves.
+  /// Clips the ray to the grid, whose outermost boxes are half as wide.
   void clip(const Vec3f& start, const Vec3f& speed) {
     for (int a = 0; a < 3; a++) {
       const float lo = 0.5f, hi = static_cast<float>(nodes_[a]) - 0.5f;
@@ -86,7 +86,7 @@ class BoxWalk {
   Vec3i nodes_;
   float begin_ = 0, end_;
   size_t node_ = 0;
-  Vec3i left_{};                     // boxes that follow on each axis
+  Vec3i left_{};                     // boxes ahead on each axis
   std::array<ptrdiff_t, 3> step_{};  // to the next node of each axis
   Vec3f cross_{};                    // where the next face of each axis is crossed
   Vec3f between_{};                  // distance between faces of each axis

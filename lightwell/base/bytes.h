@@ -65,7 +65,7 @@ class ByteWriter {
   void f32(float value) { integer(std::bit_cast<uint32_t>(value)); }
   void f64(double value) { integer(std::bit_cast<uint64_t>(value)); }
   void append(Bytes more) { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
-  /// Fills up with `filler` to a multiple of `alignment` bytes.
+  /// Pads with `filler` to a multiple of `alignment` bytes.
   void align(size_t alignment, uint8_t filler = 0) {
     while (bytes_.size() % alignment != 0) bytes_.push_back(filler);
   }

@@ -22,7 +22,7 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
-// Inflates every member of the file, one behind the other (RFC 1952, 2.2).
+// Inflates all members of a gzip file, which follow one another (RFC 1952, section 2.2).
 Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) return fail(ErrorKind::limit, "gzip", "out of memory");
@@ -63,7 +63,7 @@ Error not_writable(const fs::path& path, const std::string& why) {
   return {path.string(), "", "cannot be written: " + why, ErrorKind::io};
 }
 
-// Where a path leads through its links, the last of which may lead to a file that is not there yet.
+// Resolves the symbolic links of a path. The last one may point to a file that does not exist yet.
 Result<fs::path> behind_links(const fs::path& path) {
   constexpr int most_links = 40;  // as many as Linux follows
   fs::path at = path;
@@ -77,7 +77,7 @@ Result<fs::path> behind_links(const fs::path& path) {
   return at;
 }
 
-// A regular file is replaced; a device or a pipe is written to.
+// Whether a write replaces the file: true for a regular or new file, false for a device or a pipe.
 Result<bool> is_replaced(const fs::path& path) {
   std::error_code unknown;
   const auto kind = fs::status(path, unknown).type();
@@ -85,8 +85,8 @@ Result<bool> is_replaced(const fs::path& path) {
   return kind == fs::file_type::regular || kind == fs::file_type::not_found;
 }
 
-// A file in the folder of another, under a name that nobody can have foreseen and laid a link at. Removed with the
-// object unless it has taken the other's place.
+// A temporary file beside another one, with an unpredictable name, so that nobody can have planted a link there.
+// Removed on destruction unless it has replaced the other file.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& beside) {
@@ -110,11 +110,11 @@ class TemporaryFile {
     if (made_) fs::remove(path_, ignored);
   }
 
-  // What the system said when there is no file.
+  // The errno of the failure when there is no file.
   int failure() const { return failure_; }
   std::FILE* file() const { return file_.get(); }
 
-  // Closes the file and lets it take the place of another.
+  // Closes the file and renames it over another.
   Result<void> replace(const fs::path& other) {
     std::error_code code;
     if (std::fclose(file_.release()) != 0) return fail(ErrorKind::io, "", reason(errno));

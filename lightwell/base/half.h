@@ -6,8 +6,8 @@
 
 namespace lightwell {
 
-/// The IEEE 754 half nearest to value (ties to even); beyond the range the largest finite half, so that a texture never
-/// holds an infinity.
+/// The IEEE 754 half nearest to `value`, ties to even. Values beyond the range give the largest finite half, so that a
+/// texture never holds an infinity; NaN gives 0.
 inline uint16_t to_half(float value) {
   const uint32_t bits = std::bit_cast<uint32_t>(value);
   const auto sign = static_cast<uint16_t>(bits >> 16 & 0x8000);

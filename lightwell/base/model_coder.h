@@ -5,9 +5,9 @@
 
 namespace lightwell {
 
-/// ModelWriter and ModelReader are the two directions of one code. Each function takes the value to be written and
-/// returns the one that is in the stream, so that one description, a template over the two, serves encoder and decoder
-/// and they cannot differ. The reader ignores the values it is given.
+/// ModelWriter and ModelReader are the two directions of one coder. Each function takes the value to write and returns
+/// the value in the stream, so that a single template over the two describes both encoder and decoder, and they cannot
+/// differ. The reader ignores the values it is given.
 class ModelWriter {
  public:
   static constexpr bool writes = true;
@@ -24,7 +24,7 @@ class ModelWriter {
   RangeEncoder encoder_;
 };
 
-/// See ModelWriter. Any payload reads as some values, in time bounded by the number of calls.
+/// See ModelWriter. Any payload decodes to some values, in time bounded by the number of calls.
 class ModelReader {
  public:
   static constexpr bool writes = false;

@@ -14,9 +14,8 @@ constexpr uint64_t hash64(uint64_t x) {
   return x ^ x >> 31;
 }
 
-/// The random sequence of a (seed, index): photon 7 draws the same numbers whichever thread traces it.
-/// PCG-XSH-RR with 64 bits of state (O'Neill 2014); seed and index are hashed, since states a constant step apart would
-/// share one stream.
+/// The random sequence of (seed, index): photon 7 draws the same numbers whichever thread traces it. PCG-XSH-RR with 64
+/// bits of state (O'Neill 2014); seed and index are hashed, since neighbouring states give correlated sequences.
 class Random {
  public:
   Random(uint64_t seed, uint64_t index) : state_(hash64(seed ^ hash64(index + 0x9e3779b97f4a7c15u))) { bits(); }

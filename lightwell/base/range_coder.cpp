@@ -10,7 +10,7 @@ constexpr uint32_t smallest_range = 1u << 24;
 
 uint32_t split(uint32_t range, const AdaptiveBit& context) { return (range >> 16) * context.probability_of_zero(); }
 
-// The bits of value below its leading one: two adaptive ones, then raw ones.
+// Encodes the bits of value below its leading one: the first two adaptively, the others raw.
 void encode_below_leading(RangeEncoder& encoder, std::array<AdaptiveBit, 4>& contexts, uint32_t value, int width) {
   int left = width - 1;
   uint32_t node = 1;
@@ -68,14 +68,14 @@ void RangeEncoder::raw(uint32_t value, int count) {
 
 std::vector<uint8_t> RangeEncoder::finish() {
   for (int i = 0; i < 5; i++) shift_low();
-  // Missing bytes read as zero only at the price of overrun(), so the four bytes of the last code word stay.
+  // All four bytes of the last code word are kept: a decoder reads them, and would report overrun() without them.
   std::vector<uint8_t> bytes = std::move(bytes_);
   *this = RangeEncoder();
   return bytes;
 }
 
-// A byte leaves when no carry can reach it any more: a run of 0xff waits in pending_. The very first byte is always
-// zero and is not written.
+// Writes a byte once no carry can reach it; a run of 0xff waits in pending_. The very first byte is always zero and is
+// not written.
 void RangeEncoder::shift_low() {
   if (low_ < 0xff000000u || low_ > 0xffffffffu) {
     const uint8_t carry = static_cast<uint8_t>(low_ >> 32);

@@ -31,13 +31,13 @@ class AdaptiveBit {
   uint16_t slow_ = 32768;
 };
 
-/// Binary range coder with carry propagation (Martin 1979, in the byte-wise form of LZMA): 32 bits of range.
+/// Binary range coder with carry propagation (Martin 1979, in the byte-wise form of LZMA) and a 32-bit range.
 class RangeEncoder {
  public:
   void bit(AdaptiveBit& context, bool value);
-  /// The low `count` bits of value, at one half each, most significant first; count <= 32.
+  /// Encodes the low `count` bits of value with equal probabilities, most significant first; count <= 32.
   void raw(uint32_t value, int count);
-  /// Ends the stream and returns its bytes; the encoder starts anew (contexts are the caller's and stay as they are).
+  /// Ends the stream, returns its bytes and resets the encoder. The contexts are the caller's and keep their state.
   std::vector<uint8_t> finish();
 
  private:
@@ -52,7 +52,7 @@ class RangeEncoder {
 };
 
 /// Decodes what RangeEncoder wrote. Bytes beyond the end read as zero: any input decodes to something, in time bounded
-/// by the number of calls, and overrun() tells that it was too short.
+/// by the number of calls, and overrun() tells whether it was too short.
 class RangeDecoder {
  public:
   explicit RangeDecoder(Bytes bytes);
@@ -108,7 +108,7 @@ class AdaptiveInteger {
   std::array<std::array<AdaptiveBit, 4>, 33> leading_;
 };
 
-/// An adaptive model of unsigned 32-bit integers, as AdaptiveInteger without the sign.
+/// An adaptive model of unsigned 32-bit integers, like AdaptiveInteger without the sign.
 class AdaptiveNatural {
  public:
   void encode(RangeEncoder& encoder, uint32_t value);

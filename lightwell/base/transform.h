@@ -6,7 +6,7 @@
 namespace lightwell {
 
 /// An affine map p -> x p0 + y p1 + z p2 + t of points (column vectors, as in glTF), in double precision so that deep
-/// node hierarchies do not lose a millimetre.
+/// node hierarchies stay accurate.
 struct Transform {
   Vec3d x{{1, 0, 0}}, y{{0, 1, 0}}, z{{0, 0, 1}}, t{};
 
@@ -19,14 +19,14 @@ struct Transform {
   Vec3d point(const Vec3d& p) const { return vector(p) + t; }
   Vec3f vector(const Vec3f& v) const { return vector(v.cast<double>()).cast<float>(); }
   Vec3d vector(const Vec3d& v) const { return x * v[0] + y * v[1] + z * v[2]; }
-  /// The unit normal of a surface whose normal was n before the map: by the cofactors, so that it also holds for uneven
-  /// scales; a map that mirrors turns no normal inside out. Zero when the map flattens the surface.
+  /// The unit normal of a mapped surface whose normal was n. It uses the cofactors, so that it stays perpendicular
+  /// under uneven scales; mirroring does not turn it inside out. Zero when the map flattens the surface.
   Vec3f normal(const Vec3f& n) const;
   double determinant() const { return dot(x, cross(y, z)); }
   /// The inverse map. The determinant must not be zero.
   Transform inverse() const;
 
-  /// First b, then a.
+  /// The map that applies first b, then a.
   friend Transform operator*(const Transform& a, const Transform& b) {
     return {a.vector(b.x), a.vector(b.y), a.vector(b.z), a.point(b.t)};
   }

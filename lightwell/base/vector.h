@@ -117,7 +117,7 @@ bool is_finite(const Vec<T, N>& a) {
   return std::all_of(a.e.begin(), a.e.end(), [](T x) { return std::isfinite(x); });
 }
 
-/// An axis-parallel box; empty until it is extended.
+/// An axis-aligned box; empty until it is extended.
 struct Box3f {
   Vec3f lo = Vec3f::filled(std::numeric_limits<float>::infinity());
   Vec3f hi = Vec3f::filled(-std::numeric_limits<float>::infinity());
@@ -131,6 +131,7 @@ struct Box3f {
     hi = max(hi, b.hi);
   }
   bool empty() const { return lo[0] > hi[0]; }
+  bool operator==(const Box3f&) const = default;
   Vec3f size() const { return empty() ? Vec3f{} : hi - lo; }
   Vec3f center() const { return (lo + hi) * 0.5f; }
 };

@@ -21,7 +21,7 @@ struct SceneOptions {
   const EstimatorKind* method = &estimators().front();
   int threads = 0;  ///< 0: all processors
 
-  /// How its light grid is baked; `contained` as in EstimatorOptions.
+  /// The options for baking its light grid; `contained` as in EstimatorOptions.
   LightBakeOptions light(const LuminaireSet& contained) const {
     return {nodes, method, {photons, import.seed, contained}, threads};
   }
@@ -31,14 +31,14 @@ struct SceneOptions {
 /// the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 
-/// --level: the share of a pack's faces. --fill: what stands in for the nodes of its light grid that are not there.
+/// Adds --level, the share of a pack's faces, or --fill, how missing nodes of its light grid are filled.
 void add_level_option(CLI::App& command, MeshLevel& level, const std::string& help);
 void add_fill_option(CLI::App& command, Fill& fill, const std::string& help);
 
 /// Reads "R,G,B", three numbers that are not negative.
 Result<Vec3f> parse_color(const std::string& text);
 
-/// The value of --environment: "R,G,B", or the name of a Radiance .hdr file.
+/// Reads the value of --environment: "R,G,B", or the name of a Radiance .hdr file.
 Result<Environment> read_environment(const std::string& argument);
 
 }  // namespace lightwell

@@ -22,7 +22,7 @@ struct Options {
 struct Bake {
   Scene scene;
   std::unique_ptr<const World> world;
-  Camera camera;  // from which a viewer begins
+  Camera camera;  // where a viewer begins
   LampPlan plan;
   LightField field;
   PackLight light;

@@ -8,8 +8,9 @@
 
 namespace lightwell {
 
-/// A function that adds a command to the program: its name, help and options, and in `chosen` what runs it. That
-/// returns the exit status: 0, 1 for bad input, 2 for bad usage, 128 plus the signal's number when the user ended it.
+/// A function that adds a command to the program: its name, help and options. When the command is used, `chosen` is set
+/// to the function that runs it, which returns the exit status: 0, 1 for bad input, 128 plus the signal's number when
+/// cancelled. Bad usage is refused before that, with status 2.
 using AddCommand = CLI::App* (*)(CLI::App& program, Console& console, std::function<int()>& chosen);
 
 CLI::App* add_scenes(CLI::App&, Console&, std::function<int()>&);

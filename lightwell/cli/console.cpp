@@ -13,7 +13,7 @@
 namespace lightwell {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;  // the signal that did
+volatile std::sig_atomic_t interrupted = 0;  // the number of the signal
 
 void note_interrupt(int signal) {
   interrupted = signal;
@@ -52,7 +52,7 @@ void Console::warn(const Report& report) const {
 }
 
 void Console::print(const nlohmann::ordered_json& figures) const {
-  constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;  // names of a file may not be UTF-8
+  constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;  // names from a file need not be UTF-8
   const std::string text = json ? figures.dump(-1, ' ', false, replace) + "\n" : figures_text(figures);
   std::fputs(text.c_str(), stdout);
 }

@@ -12,18 +12,18 @@
 
 namespace lightwell {
 
-/// The way a command talks: figures go to stdout, everything else to stderr. Its members are options of every command.
+/// The output of a command: figures go to stdout, everything else to stderr. Its members are options of every command.
 struct Console {
   bool json = false;   ///< print one JSON object instead of lines
   bool quiet = false;  ///< no progress, no warnings
 
-  /// Prints one line on stderr, "lightwell: FILE: ELEMENT: REASON", and returns the exit status for bad input. Of an
-  /// error of ErrorKind::cancelled the line says that nothing was written, and the status is the shell's for the signal
-  /// that ended the work, Ctrl-C or SIGTERM: 130 or 143.
+  /// Prints one line on stderr, "lightwell: FILE: ELEMENT: REASON", and returns the exit status for bad input. For
+  /// ErrorKind::cancelled the line says that nothing was written, and the status is 128 plus the signal's number, as in
+  /// a shell: 130 for Ctrl-C, 143 for SIGTERM.
   int fail(const Error& error) const;
   void warn(const std::string& warning) const;
   void warn(const Report& report) const;
-  /// Prints the figures of a command: as JSON, or as figures_text() has them.
+  /// Prints the figures of a command: as JSON, or formatted by figures_text().
   void print(const nlohmann::ordered_json& figures) const;
 };
 
@@ -37,7 +37,7 @@ class ConsoleProgress : public Progress {
   void stage(std::string_view name, double total, std::string_view unit) override;
   void advance(double done) override;
   bool cancelled() const override;
-  /// Ends the last stage; one that failed is never ended, and the error is all that is said of it.
+  /// Ends the last stage and prints its time. Not called after a failure, of which only the error is shown.
   void finish();
 
  private:
@@ -55,7 +55,7 @@ class ConsoleProgress : public Progress {
   std::chrono::steady_clock::time_point drawn_;
 };
 
-/// Calls `work`, a function of a Progress that gives a Result, and shows its progress.
+/// Calls `work` with a Progress that is shown, and returns its Result.
 template <typename Work>
 auto with_progress(const Console& console, const Work& work) {
   ConsoleProgress progress(console);

@@ -38,7 +38,7 @@ Result<std::vector<uint8_t>> read_pack(const std::string& path) {
   return read_file(path);
 }
 
-// The URL with its scheme in lower case, which is the same scheme (RFC 3986, 3.1).
+// The URL with its scheme in lower case; schemes ignore case (RFC 3986, section 3.1).
 std::string with_plain_scheme(std::string url) {
   const size_t end = url.find("://");
   if (end != std::string::npos)
@@ -65,7 +65,7 @@ Result<std::unique_ptr<Transport>> open_transport(const Options& options) {
   return shaped_transport(std::move(transport), shape);
 }
 
-// The guard of a fetch: Ctrl-C and --timeout end it, and outages are warned of.
+// The guard of a fetch: Ctrl-C and --timeout end it, and outages give warnings.
 FetchGuard guard_of(const Options& options, const Progress& progress, const Console& console) {
   FetchGuard guard;
   guard.cancelled = [&] { return progress.cancelled(); };

@@ -12,7 +12,7 @@ using Figures = nlohmann::ordered_json;
 
 enum class Unit { none, seconds, bytes, share };
 
-// The name of a JSON key in a text, and its unit; an unknown key keeps its name and has the unit of its object.
+// How a JSON key is named in the text, and its unit; an unknown key keeps its name and has the unit of its object.
 struct Meaning {
   std::string name;
   Unit unit = Unit::none;

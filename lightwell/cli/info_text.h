@@ -6,7 +6,7 @@
 
 namespace lightwell {
 
-/// The figures of `lightwell info` for people: a line a mesh, grid, lamp and stream, with units.
+/// The figures of `lightwell info` as text for people: a line for each mesh, grid, lamp and stream, with units.
 std::string info_text(const nlohmann::ordered_json& figures);
 
 }  // namespace lightwell

@@ -8,15 +8,15 @@
 
 namespace lightwell {
 
-/// The luminaires whose direct light the grids of `scene` hold: of a pack as it was baked; of another scene, where
-/// figures are compared with other programs', the environment only, if that.
+/// The luminaires whose direct light is in the grids of `scene`: for a pack, those it was baked with; for another
+/// scene, whose figures are compared with other programs', only the environment, and that only if `environment` is set.
 LuminaireSet contained_in_grids(const OpenedScene& scene, const World& world, bool environment = true);
 
-/// Fails when the scene of a pack was given an environment that its grids lack: bounced light would be missing.
+/// Fails when a pack is given an environment that it was not baked with: its bounced light would be missing.
 Result<void> check_environment(const OpenedScene& scene);
 
-/// The baked light that a scene stands for: the grids of its pack at a level, or one grid baked as its options say,
-/// with the direct light of the `contained` luminaires.
+/// The baked light of a scene: the grids of its pack at a level or, without a pack, one grid baked with `options`,
+/// including the direct light of the `contained` luminaires.
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,
                             const LuminaireSet& contained, Progress& progress, const LightLevel& level = {});
 

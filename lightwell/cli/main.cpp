@@ -3,7 +3,7 @@
 
 namespace {
 
-// The words for what is wrong with a command line.
+// Describes what is wrong with a command line.
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   const auto chosen = program.get_subcommands();
   const std::vector<std::string> rest = program.remaining(true);
@@ -17,7 +17,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   return chosen.empty() ? rest.front() + ": no such command" : text + ": more than was expected";
 }
 
-// Refuses a command line: one line that also says where to read on.
+// Refuses a command line in one line, which also points to the help.
 int refuse(const CLI::App& program, const std::string& reason) {
   const auto chosen = program.get_subcommands();
   const std::string command = chosen.empty() ? "" : chosen.front()->get_name();

@@ -6,9 +6,9 @@
 
 namespace lightwell {
 
-// Texts of numbers, for people.
+// Numbers as text for people.
 
-/// Four digits, "0.04361", or a whole number of more, "-2,387,122"; a number that rounds to zero has no sign.
+/// Four significant digits, "0.04361", or a whole number if it has more, "-2,387,122"; a number below 1e-6 is "0".
 std::string short_number(double number);
 
 /// "20,010"

@@ -25,21 +25,21 @@ Result<OpenedScene> open_other(const std::string& path, const ImportOptions& opt
   return OpenedScene{std::move(scene), std::nullopt};
 }
 
-// The object of that name; one takes the place of anything else that a file may have there.
+// The object under this key, which replaces anything else that a file may have there.
 Json& object_in(Json& json, const char* key) {
   Json& value = json[key];
   if (!value.is_object()) value = Json::object();
   return value;
 }
 
-// Lets a constant sky survive in a pack.
+// Notes a constant sky in the document, so that a pack keeps it.
 void note_sky(Scene& scene, const Vec3f& radiance) {
   Json& json = scene.document.json;
   const auto index = static_cast<size_t>(std::max(0, index_of(json, "scene")));
   object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
 }
 
-// Packs and built-in scenes have an up and a unit.
+// Refuses --up and --unit for packs and built-in scenes, which have their own.
 Result<void> refuse_conventions(const std::string& path, const ImportOptions& asked) {
   const ImportOptions own;
   if (asked.up == own.up && asked.unit == own.unit) return {};

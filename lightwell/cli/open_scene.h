@@ -9,16 +9,16 @@
 
 namespace lightwell {
 
-/// A scene, and the pack that it is from; none when it is from another file or built in.
+/// A scene and the pack that it comes from, if any.
 struct OpenedScene {
   Scene scene;
   std::optional<OpenedPack> pack;
 };
 
-/// The scene that the options name, under their environment; a pack's at a level.
+/// Opens the scene that the options name, a pack at a level; --environment replaces the scene's own.
 Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level = {});
 
-/// The camera of a scene by its name or number; an empty choice is the first one, or an overview where there is none.
+/// The camera with this name or number; an empty choice is the first one, or an overview where there is none.
 Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice);
 
 }  // namespace lightwell

@@ -23,7 +23,7 @@ std::string range_text(NumberRange range) { return short_text(range.least) + " t
 
 bool in_range(double number, NumberRange range) { return number >= range.least && number <= range.most; }
 
-// A device or a pipe is written to under any name.
+// Whether a path is a device or a pipe, which may have any name.
 bool is_device(const std::string& path) {
   std::error_code unknown;
   return std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown) &&

@@ -13,14 +13,14 @@
 
 namespace lightwell {
 
-// The kinds of options that the commands share. What does not fit is bad usage, said in words: the option, what was
-// given, what was expected.
+// The kinds of options that commands share. A value that does not fit is bad usage; the error names the option, the
+// value, and what was expected.
 
-/// Adds an option that `take` reads from its text; `kind` stands for the value in the help ("NUMBER").
+/// Adds an option whose text `take` reads; `kind` stands for the value in the help ("NUMBER").
 CLI::Option* add_text(CLI::App& command, const std::string& name, const std::string& kind,
                       const std::function<Result<void>(const std::string&)>& take, const std::string& help);
 
-/// A range of numbers with both ends.
+/// A range of numbers, both ends included.
 struct NumberRange {
   double least = 0, most = 1;
 };
@@ -33,7 +33,7 @@ Result<double> parse_number(const std::string& text, NumberRange range);
 /// Reads a whole number in the range.
 Result<int64_t> parse_whole(const std::string& text, NumberRange range);
 /// Reads a whole number that may end in k, M or G, small or large ("8M" is 8 000 000), or have an exponent ("1e6");
-/// nothing when the text is none.
+/// nothing if the text is not a count.
 std::optional<uint64_t> parse_count(const std::string& text);
 
 /// Adds an option whose value is a number of the range.
@@ -60,15 +60,15 @@ CLI::Option* add_whole(CLI::App& command, const std::string& name, T& value, Num
   return add_text(command, name, "N", take, help)->default_str(std::to_string(value));
 }
 
-/// Adds an option whose value is a count of at least 1, as parse_count reads it. `expected` says to those who give
-/// something else what it is, with examples.
+/// Adds an option whose value is a count of at least 1, as parse_count reads it. `expected` describes it, with
+/// examples, for the error message.
 CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help,
                        const std::string& expected);
 
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);
 
-/// Adds an option whose value is one of some names, each with what it means to the program.
+/// Adds an option whose value is one of several names, each of which stands for a value of the program.
 template <typename T>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
                         const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
@@ -90,8 +90,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, T& value,
   return add_text(command, name, kind, take, help)->default_str(standard);
 }
 
-/// Adds an option whose value is a row of a table of the program's parts (estimators, integrators), by its name; the
-/// help names each with its own words. `offered` says which rows are.
+/// Adds an option that chooses a row of a table (estimators, integrators) by its name; the help lists each row with its
+/// own help. `offered` tells which rows can be chosen.
 template <typename Row>
 CLI::Option* add_row_choice(
     CLI::App& command, const std::string& name, const Row*& value, std::span<const Row> table,
@@ -106,13 +106,13 @@ CLI::Option* add_row_choice(
   return add_choice<const Row*>(command, name, value, choices, help);
 }
 
-/// Adds -o, the file that the command writes; its name has to end in one of `endings`, the first of which is also what
-/// stdout ("-") and devices get. Whether it can be written is asked by check_output when the command begins.
+/// Adds -o, the file that the command writes. Its name must end in one of `endings`, the first of which is also the
+/// format for stdout ("-") and devices. check_output, called when the command begins, tests whether it can be written.
 CLI::Option* add_output(CLI::App& command, std::string& path, const std::vector<std::string>& endings,
                         const std::string& help);
 
-/// Fails when `output` cannot be written, or is one of the files that the command reads, under this name or another: to
-/// be asked before any work.
+/// Fails when `output` cannot be written, or is one of the files that the command reads, under this name or another.
+/// Called before any work.
 Result<void> check_output(const std::string& output, const std::vector<std::string>& inputs);
 
 }  // namespace lightwell

@@ -7,7 +7,7 @@
 
 namespace lightwell {
 
-/// Fails when `path` is no file but the name of a built-in scene, which other commands take where this one reads a
+/// Fails when `path` is not a file but the name of a built-in scene, which other commands accept where this one reads a
 /// pack.
 Result<void> refuse_builtin_scene(const std::string& path);
 

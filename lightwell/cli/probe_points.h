@@ -11,7 +11,8 @@ namespace lightwell {
 /// point a line. Normals are scaled to length 1. Errors name the line.
 Result<std::vector<ProbePoint>> read_probe_points(const std::string& path);
 
-/// x,y,z,nx,ny,nz,r,g,b,stderr: a line of names and a line a point, with all digits of a float.
+/// CSV with the columns x,y,z,nx,ny,nz,r,g,b,stderr: a line of names and a line for each point, with all digits of a
+/// float.
 std::string probe_csv(const std::vector<ProbePoint>& points, const std::vector<ProbeValue>& values);
 
 }  // namespace lightwell

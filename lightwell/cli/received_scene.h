@@ -9,19 +9,18 @@
 
 namespace lightwell {
 
-/// The scene that a client has handed over so far, as a viewer would hold it: the opening's glTF and each mesh's
-/// buffers.
+/// The scene that a client has delivered so far, as a viewer would hold it: the opening's glTF and each mesh's buffers.
 class ReceivedScene {
  public:
-  /// Takes an update in.
+  /// Applies an update.
   void apply(const Update& update);
-  /// The scene at the level it has reached, as a GLB. Fails before the opening has come.
+  /// The scene at the level it has reached, as a GLB. Fails before the opening has arrived.
   Result<std::vector<uint8_t>> glb() const;
 
  private:
   struct Buffers {
     std::vector<AttributeLayout> attributes;
-    std::vector<std::vector<uint8_t>> data;  ///< one an attribute
+    std::vector<std::vector<uint8_t>> data;  ///< one for each attribute
     std::vector<uint8_t> indices;
     uint32_t vertices = 0;  ///< to be drawn
     uint32_t faces = 0;

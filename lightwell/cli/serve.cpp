@@ -18,7 +18,7 @@ void stop_server(int) {
   if (running != nullptr) running->stop();
 }
 
-// Prints a sentence on a terminal, a line of JSON for a program.
+// Prints the URL: a sentence on a terminal, a line of JSON for a program.
 void announce(const std::string& url, const Console& console) {
   if (!console.json && isatty(STDOUT_FILENO) != 0)
     std::printf("Lightwell is at %s until you press Ctrl-C.\n", url.c_str());

@@ -4,7 +4,7 @@
 namespace lightwell {
 namespace {
 
-/// Removes digits from the front of text. Nothing when there are none, or more than fit.
+/// Removes a number from the front of `text`; nullopt when there is none or it is too long.
 std::optional<uint64_t> take_number(std::string_view& text) {
   uint64_t value = 0;
   size_t digits = 0;

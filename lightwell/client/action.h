@@ -7,11 +7,11 @@
 
 namespace lightwell {
 
-/// An order of a client to its transport.
+/// An instruction from a client to its transport.
 struct Action {
   enum class Kind : uint8_t {
     ask,    ///< send a request for the bytes first ... last (HTTP: "Range: bytes=first-last" and no other header)
-    cancel  ///< drop the request `id`; nothing more about it needs to be told
+    cancel  ///< drop the request `id` and report nothing more about it
   };
   Kind kind = Kind::ask;
   uint32_t id = 0;
@@ -19,7 +19,7 @@ struct Action {
   uint64_t last = 0;  ///< inclusive
 };
 
-/// The head of a server's response. A header that is absent, or that the transport may not see, is empty.
+/// The status and headers of a response. A header that is absent, or hidden from the transport by CORS, is empty.
 struct ResponseHead {
   int status = 0;
   std::string_view content_range;
@@ -32,7 +32,7 @@ struct ContentRange {
   std::optional<uint64_t> last;
   std::optional<uint64_t> total;
 
-  /// Nothing when the text is not such a value.
+  /// nullopt when the text is not such a value.
   static std::optional<ContentRange> parse(std::string_view text);
 };
 

@@ -20,7 +20,8 @@ class Client::Machine {
 
   Requests& requests() { return requests_; }
 
-  /// Takes over what the requests have brought: the opening once it is there, and their failure.
+  /// Follows up on what the requests have received: checks the opening once it is complete, and takes over their
+  /// failure.
   void follow() {
     if (failure_) return;
     if (requests_.failure()) return give_up(*requests_.failure());
@@ -44,7 +45,7 @@ class Client::Machine {
       opening_taken_ = true;
       return OpeningUpdate{download_.opening()};
     }
-    // Who takes pieces may stop when there is no room for more, so all announcements come before.
+    // All announcements come first, since a caller may stop taking pieces when it runs out of room.
     while (announced_ < decoders_.size())
       if (std::optional<Update> update = decoders_[announced_++]->announce()) return update;
     if (decoders_.size() < download_.directory().streams.size()) return std::nullopt;
@@ -56,11 +57,11 @@ class Client::Machine {
     if (completed_ || !all_decoded()) return std::nullopt;
     for (size_t i = 0; i < count; i++)
       if (!decoders_[i]->complete()) {
-        give_up({FailureUpdate::Reason::unreadable, "stream " + std::to_string(i) + " is not complete"});
+        give_up(FailureUpdate::unreadable({"", "stream " + std::to_string(i), "is not complete"}));
         return take_failure();
       }
     completed_ = true;
-    requests_.stop();  // whether the file is still the same one does not matter any more
+    requests_.stop();  // a later change of the file does not matter any more
     return CompleteUpdate{};
   }
 
@@ -97,11 +98,12 @@ class Client::Machine {
     checked_ = true;
     const Bytes json = glb_chunks(download_.opening()).json;
     const auto contained = check_self_contained({reinterpret_cast<const char*>(json.data()), json.size()});
-    if (!contained) give_up({FailureUpdate::Reason::unreadable, contained.error().message()});
+    if (!contained) give_up(FailureUpdate::unreadable(contained.error()));
   }
 
-  /// True while the answer that brings the opening still brings the first block of a light, if that is not far behind:
-  /// the eight corners that the opening itself holds may lie in the dark, and the first picture is to be lit.
+  /// True while the response that delivered the opening is still delivering the first block of a light stream, if that
+  /// is close behind. The first picture is to be lit, and the eight corners that are known without a block may lie in
+  /// the dark.
   bool opening_waits() const {
     if (opening_taken_) return false;
     constexpr uint64_t not_far = 16384;
@@ -114,19 +116,19 @@ class Client::Machine {
     return false;
   }
 
-  /// Opens the next stream's decoder. What is there of a light at first is handed over at once, however much waits to
-  /// be decoded.
+  /// Opens the next stream's decoder. A light stream also decodes its first block, so that it can be taken at once,
+  /// however much waits to be decoded.
   void open_decoder() {
     const uint32_t stream = static_cast<uint32_t>(decoders_.size());
     context_.bin = glb_chunks(download_.opening()).bin;
     auto decoder = open_asset(download_.directory(), stream, context_);
-    if (!decoder) return give_up({FailureUpdate::Reason::unreadable, decoder.error().message()});
+    if (!decoder) return give_up(FailureUpdate::unreadable(decoder.error()));
     decoders_.push_back(std::move(*decoder));
     if (download_.directory().streams[stream].kind == StreamKind::light && download_.ready(stream)) decode(stream);
     if (!failure_) decoders_.back()->settle();
   }
 
-  /// Decodes a block of the next stream, in turns, that has a block ready and accepts it.
+  /// Decodes a block of the next stream, taking turns, that has one ready and accepts it.
   bool decode_next() {
     const size_t count = decoders_.size();
     for (size_t tried = 0; tried < count; tried++) {
@@ -139,20 +141,20 @@ class Client::Machine {
     return false;
   }
 
-  /// Decodes the block of a stream that is ready.
+  /// Decodes the next block of a stream, which must be ready.
   void decode(size_t stream) {
     const auto decoded = decoders_[stream]->append(download_.take(stream));
     if (decoded) return;
     const std::string block = std::to_string(download_.taken(stream) - 1);
-    give_up({FailureUpdate::Reason::unreadable,
-             "stream " + std::to_string(stream) + ", block " + block + ": " + decoded.error().message()});
+    give_up(FailureUpdate::unreadable(
+        in_element(decoded.error(), "stream " + std::to_string(stream) + ", block " + block)));
   }
 
   bool settle_next() {
     return std::ranges::any_of(decoders_, [](const auto& decoder) { return decoder->settle(); });
   }
 
-  /// True when every block has been decoded and is ready to be handed over.
+  /// True when every block has been decoded and prepared for take().
   bool all_decoded() const {
     for (size_t i = 0; i < download_.directory().streams.size(); i++)
       if (!download_.complete(i)) return false;
@@ -175,10 +177,10 @@ class Client::Machine {
   Requests requests_;
   std::vector<float> weights_;
   AssetContext context_;
-  std::vector<std::unique_ptr<AssetDecoder>> decoders_;  ///< of the first streams
+  std::vector<std::unique_ptr<AssetDecoder>> decoders_;  ///< of the first streams, as far as they are open
   size_t decoding_ = 0;                                  ///< the stream whose turn it is to be decoded
-  size_t announced_ = 0;                                 ///< decoders that have said what they are of
-  size_t turn_ = 0;                                      ///< the stream whose turn it is to hand over
+  size_t announced_ = 0;                                 ///< number of decoders whose announcement was taken
+  size_t turn_ = 0;                                      ///< the stream whose turn it is in take()
   bool checked_ = false;
   bool opening_taken_ = false;
   bool completed_ = false;

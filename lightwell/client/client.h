@@ -20,22 +20,22 @@ struct ClientOptions {
 };
 
 struct ClientProgress {
-  uint64_t bytes = 0;                                     ///< of the file, received and good
+  uint64_t bytes = 0;                                     ///< of the file, received and valid
   uint64_t bytes_total = 0;                               ///< of the file; 0 while unknown
   uint64_t geometry_bytes = 0, geometry_bytes_total = 0;  ///< blocks of meshes and textures
   uint64_t light_bytes = 0, light_bytes_total = 0;
   uint64_t faces = 0, faces_total = 0;
   uint64_t nodes = 0, nodes_total = 0;  ///< of light grids
   uint32_t requests = 0;                ///< sent
-  uint32_t failures = 0;                ///< of requests, in a row: not 0 while the server is away
+  uint32_t failures = 0;                ///< consecutive failed requests; not 0 while the server is unreachable
 };
 
-/// Streams a pack: decides what to ask for, checks and decodes what comes, and hands over buffers. It has no clock, no
-/// thread and no I/O: whoever drives it tells it the time (seconds, from any start) and carries its requests.
-/// docs/format.md says what it reads.
+/// Streams a pack: decides what to request, checks and decodes what arrives (docs/format.md), and returns updates for a
+/// viewer. It has no clock, threads or I/O: its driver tells it the time (seconds, from any start) and performs its
+/// requests.
 ///
-/// A driver, in turn: performs next() until it gives nothing; reports to respond(), receive(), finish() or fail() what
-/// happens; calls work() while it says so; applies take() while it gives something; and comes back at wake() at the
+/// The driver repeatedly performs next() until it returns nothing; reports events to respond(), receive(), finish() and
+/// fail(); calls work() while it returns true; applies take() until it returns nothing; and comes back at wake() at the
 /// latest.
 class Client {
  public:
@@ -44,39 +44,37 @@ class Client {
   Client& operator=(Client&&) noexcept;
   ~Client();
 
-  /// The next thing to do, if any.
+  /// The next action to perform, if any.
   std::optional<Action> next(double now);
   /// The response to request `id` begins.
   void respond(uint32_t id, const ResponseHead& head, double now);
   /// The next bytes of its body.
   void receive(uint32_t id, Bytes bytes, double now);
-  /// Its body ended, where it should or not.
+  /// Its body ended, completely or not.
   void finish(uint32_t id, double now);
   /// It got no response, or the connection broke.
   void fail(uint32_t id, double now);
 
-  /// Decodes at most one block and fills a light grid: a few milliseconds for what `lightwell bake` writes. False when
-  /// there was nothing to do.
+  /// Decodes at most one block and fills at most one light grid, which takes a few milliseconds for packs by `lightwell
+  /// bake`. False when there was nothing to do.
   bool work();
-  /// The next piece to hand over, with at most about `budget` bytes (a light grid, texture or opening comes whole);
-  /// nothing when there is none.
+  /// The next update, of at most about `budget` bytes (a light grid, texture or opening comes whole); nullopt when
+  /// there is none.
   std::optional<Update> take(size_t budget);
 
-  /// When to call next() again although nothing was reported: the end of a pause before a retry, or of the patience
-  /// with a silent server; infinity when only a report or take() can bring something new. It may be in the past: time
-  /// passes between two calls.
+  /// When to call next() again although nothing was reported: at the end of a pause before a retry, or of the wait for
+  /// a silent server; infinity when only a report or take() can change anything. May lie in the past.
   double wake() const;
 
-  /// How much an asset of any kind matters to the present picture, 1 at first: what a run of its stream's blocks is
-  /// worth is the share of the stream's first error that it takes away, times this weight. It is the asset that has a
-  /// weight, since that is what a view sees. Finite and not negative, else ignored, as before the opening has been
-  /// taken; 0 puts the asset last.
+  /// Sets how much an asset matters to the current picture, initially 1. A run of blocks is valued by the share of its
+  /// stream's first error that it removes, times the weight of the asset; 0 puts the asset last. Ignored before the
+  /// opening has arrived and for negative, infinite or NaN weights.
   void set_weight(uint32_t asset, float weight);
-  /// Takes another strategy from the next request on.
+  /// Changes the strategy from the next request on.
   void set_strategy(Strategy strategy);
 
   ClientProgress progress() const;
-  /// True when everything has been handed over, or nothing more will be.
+  /// True once take() has returned CompleteUpdate or FailureUpdate.
   bool ended() const;
 
  private:

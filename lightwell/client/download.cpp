@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t first_request_bytes = 65536;
 constexpr size_t witness_bytes = 4 + 4 + 16;  // the directory's length, version and id
 
-/// Removes the first n bytes, or all if there are fewer, and moves the cursor over them.
+/// Removes and returns the first n bytes, or all if there are fewer, and moves the cursor past them.
 Bytes cut(Cursor& cursor, Bytes& bytes, uint64_t n) {
   const Bytes front = bytes.first(static_cast<size_t>(std::min<uint64_t>(n, bytes.size())));
   bytes = bytes.subspan(front.size());
@@ -48,8 +48,8 @@ std::pair<uint64_t, uint64_t> Download::wanted_head() const {
   return {head_.size(), length_known ? std::min(end, size_.file_length) : end};
 }
 
-/// Appends what continues the head, up to what its own headers ask for, so that the bytes behind it are left for the
-/// streams.
+/// Appends bytes to the head (opening and directory) up to the end that its headers state; those behind it are left for
+/// the streams. A damaged head is read once more before it is an error.
 Result<uint64_t> Download::receive_head(Cursor& cursor, Bytes& bytes) {
   if (cursor.position > head_.size()) {
     cut(cursor, bytes, bytes.size());
@@ -105,8 +105,8 @@ std::pair<uint64_t, uint64_t> Download::wanted_witness() const {
   return {directory_->opening_length, directory_->opening_length + witness_.size()};
 }
 
-/// Reads the directory's beginning once more. A different beginning that comes twice is no damage on the way: the file
-/// was replaced.
+/// Reads the start of the directory again. When the same different bytes arrive twice, they are no transmission error:
+/// the file was replaced.
 uint64_t Download::read_witness(Cursor& cursor, Bytes& bytes) {
   const uint64_t begin = directory_->opening_length;
   if (cursor.position < begin) cut(cursor, bytes, begin - cursor.position);
@@ -135,7 +135,8 @@ std::optional<size_t> Download::stream_at(uint64_t position) const {
   return static_cast<size_t>(found - streams_.begin());
 }
 
-/// Adds to the extent under the cursor. Bytes whose place is not known yet, or that have come before, are skipped.
+/// Adds bytes to the extent at the cursor. Bytes of extents that are not known yet, or have arrived already, are
+/// skipped.
 Result<uint64_t> Download::receive_extent(size_t index, Cursor& cursor, Bytes& bytes) {
   const Stream& stream = streams_[index];
   const std::optional<uint32_t> number = stream.table.at(cursor.position);

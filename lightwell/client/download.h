@@ -15,48 +15,48 @@
 
 namespace lightwell {
 
-/// The place in the file where the next byte of a body belongs, and the beginning of an extent that is not whole yet.
+/// The file position of the next byte of a body, and the start of an extent that is not complete yet.
 struct Cursor {
   uint64_t position = 0;
   std::vector<uint8_t> partial;
 };
 
-/// The file as far as it has arrived. Bytes may come in any order and more than once; only what passes its check
-/// counts. A check that fails twice at the same place is an error; after a first failure the place counts as not
-/// here. What has been asked for, and what is asked next, is the business of client/run_order.h.
+/// The part of the file that has arrived. Bytes may arrive in any order and more than once; only those that pass their
+/// check count. After a first failed check an extent counts as missing; a second one is an error. What to request next
+/// is decided by client/run_order.h.
 class Download {
  public:
-  /// Takes bytes of a body and moves its cursor. Gives the number of good bytes gained.
+  /// Takes the next bytes of a body and moves its cursor. Returns the number of valid bytes gained.
   Result<uint64_t> receive(Cursor& cursor, Bytes bytes);
 
-  /// True when opening and directory are there.
+  /// True when the opening and the directory have arrived.
   bool opened() const { return directory_.has_value(); }
-  /// Before that: the bytes begin ... end-1 of the file to ask for.
+  /// Before that: the range [begin, end) of the file to request.
   std::pair<uint64_t, uint64_t> wanted_head() const;
   /// The length of the file, 0 while unknown.
   uint64_t file_length() const { return size_.file_length; }
-  /// True when a block was damaged, or somebody called suspect(), and the directory should be read again, to learn
-  /// whether the file is still the same one.
+  /// True when a block was damaged or suspect() was called, so that the start of the directory should be read again to
+  /// learn whether the file is still the same.
   bool suspicious() const { return suspicious_; }
   void suspect() { suspicious_ = true; }
-  /// The bytes to ask for in that case.
+  /// The range to request in that case.
   std::pair<uint64_t, uint64_t> wanted_witness() const;
-  /// True when the directory that the server has now is another one.
+  /// True when the directory on the server is no longer the same.
   bool replaced() const { return replaced_; }
 
-  // The rest needs opened().
+  // The following require opened().
   const Directory& directory() const { return *directory_; }
   const std::vector<uint8_t>& opening() const { return opening_; }
   const BlockTable& table(size_t stream) const { return streams_[stream].table; }
   /// Bytes of the stream that have arrived.
   uint64_t received(size_t stream) const { return streams_[stream].received; }
-  /// Bytes of checked blocks that nobody has taken.
+  /// Bytes of checked blocks that have not been taken.
   uint64_t backlog() const { return backlog_; }
 
   /// True when a known extent of the stream has arrived.
   bool here(size_t stream, uint32_t extent) const { return streams_[stream].here[extent]; }
 
-  /// True when the stream's next block, in its order, is there.
+  /// True when the stream's next block has arrived.
   bool ready(size_t stream) const;
   /// Takes its payload.
   std::vector<uint8_t> take(size_t stream);
@@ -67,9 +67,9 @@ class Download {
  private:
   struct Stream {
     BlockTable table;
-    std::vector<uint8_t> here;                       ///< 1 for each known extent that has arrived, 0 else
-    std::map<uint32_t, std::vector<uint8_t>> ready;  ///< blocks that have arrived and were not taken
-    uint32_t next = 0;                               ///< the block that is taken next
+    std::vector<uint8_t> here;                       ///< 1 for each known extent that has arrived, else 0
+    std::map<uint32_t, std::vector<uint8_t>> ready;  ///< blocks that have arrived but were not taken
+    uint32_t next = 0;                               ///< the next block to take
     uint64_t received = 0;
   };
 
@@ -86,9 +86,9 @@ class Download {
   bool head_failed_ = false;
   std::optional<Directory> directory_;
   std::vector<uint8_t> opening_;
-  std::vector<uint8_t> witness_;     ///< the directory's first fields, its id among them
-  std::vector<uint8_t> read_again_;  ///< the same, as far as they have been read again
-  std::vector<uint8_t> another_;     ///< what was read instead the last time
+  std::vector<uint8_t> witness_;     ///< the directory's length, version and id
+  std::vector<uint8_t> read_again_;  ///< the same fields as far as they have been read again
+  std::vector<uint8_t> another_;     ///< the different fields read the last time
   std::vector<Stream> streams_;
   std::map<std::pair<size_t, uint32_t>, int> strikes_;
   uint64_t backlog_ = 0;

@@ -8,8 +8,8 @@ namespace lightwell {
 namespace {
 
 constexpr size_t most_in_flight = 4;
-constexpr double patience_seconds = 20;         // with a server that says nothing
-constexpr uint64_t longest_backlog = 8u << 20;  // bytes of blocks that wait for the decoder
+constexpr double patience_seconds = 20;         // with a silent server
+constexpr uint64_t longest_backlog = 8u << 20;  // bytes of blocks waiting to be decoded
 constexpr double never = std::numeric_limits<double>::infinity();
 
 bool worth_another_try(int status) { return status == 408 || status == 425 || status == 429 || status >= 500; }
@@ -33,9 +33,9 @@ std::optional<Action> Requests::next(std::span<const float> weights, double now)
 }
 
 std::optional<Action> Requests::ask_for_extents(std::span<const float> weights, double now) {
-  // While the line is in doubt one request is enough to find out.
+  // While the connection is in doubt, one request is enough to test it.
   if (open_.size() >= (line_.failures() > 0 ? 1 : most_in_flight)) return std::nullopt;
-  // The request that brought the opening still brings blocks; the witness decides whether it makes sense to go on.
+  // The request for the opening is still delivering blocks; that for the witness decides whether to go on.
   if (std::ranges::any_of(open_, [](const auto& open) { return !open.second.run; })) return std::nullopt;
   if (download_.suspicious()) return ask(download_.wanted_witness(), std::nullopt, now);
   if (download_.backlog() > longest_backlog) return std::nullopt;
@@ -67,14 +67,14 @@ void Requests::respond(uint32_t id, const ResponseHead& head, double now) {
 }
 
 void Requests::respond_partial(Open::iterator request, std::string_view content_range, double now) {
-  if (content_range.empty()) return;  // not readable from another origin: it will be what was asked for
+  if (content_range.empty()) return;  // hidden by CORS: assume the requested range
   const std::optional<ContentRange> range = ContentRange::parse(content_range);
   if (!range || range->first != request->second.cursor.position) return abandon(request, now);
   if (range->total) check_length(*range->total);
 }
 
-/// Drops all other requests: the server does not know ranges, its one response brings everything, and each of the
-/// others would bring it again.
+/// Handles a server that ignores ranges: its one response delivers the whole file, as would those to all other
+/// requests, which are therefore dropped.
 void Requests::respond_whole(Open::iterator request) {
   whole_file_request_ = request->first;
   request->second.cursor.position = 0;
@@ -107,7 +107,7 @@ void Requests::receive(uint32_t id, Bytes bytes, double now) {
   const uint64_t wanted = request.end - std::min(request.end, request.cursor.position);
   const Bytes used = bytes.first(static_cast<size_t>(std::min<uint64_t>(bytes.size(), wanted)));
   const Result<uint64_t> gained = download_.receive(request.cursor, used);
-  if (!gained) return give_up(FailureUpdate::Reason::unreadable, gained.error().message());
+  if (!gained) return give_up(FailureUpdate::unreadable(gained.error()));
   if (download_.replaced()) return give_up(FailureUpdate::Reason::replaced, "the file was replaced while it was read");
   request.gained += *gained;
   if (*gained > 0) line_.succeeded();
@@ -155,8 +155,8 @@ void Requests::check_length(uint64_t length) {
             "the file has " + std::to_string(length) + " bytes, but should have " + std::to_string(stated));
 }
 
-/// Notes a response's ETag. Servers that share the work may give equal files ETags of their own, so a different ETag is
-/// a reason to look once whether the file is still the same; later ones say nothing, and the blocks' checks decide.
+/// Notes a response's ETag. Replicated servers may give equal files different ETags, so the first difference only
+/// causes one check whether the file is still the same. Later ETags are ignored, and the checks of the blocks decide.
 void Requests::note_etag(std::string_view etag) {
   if (etag.empty() || etags_differ_) return;
   if (etag_.empty()) etag_ = etag;
@@ -164,9 +164,14 @@ void Requests::note_etag(std::string_view etag) {
   if (etags_differ_) download_.suspect();
 }
 
-void Requests::give_up(FailureUpdate::Reason reason, std::string message) {
-  if (!failure_) failure_ = FailureUpdate{reason, std::move(message)};
+void Requests::give_up(FailureUpdate failure) {
+  if (!failure_) failure_ = std::move(failure);
   stop();
+}
+
+void Requests::give_up(FailureUpdate::Reason reason, std::string message) {
+  const bool file = reason == FailureUpdate::Reason::unreadable;
+  give_up({reason, file ? ErrorKind::bad_input : ErrorKind::io, std::move(message)});
 }
 
 void Requests::stop() {
@@ -184,7 +189,7 @@ bool Requests::opening_brings(uint64_t position) const {
 }
 
 /// The earliest end of a pause or of the patience with a request. A pause that has ended since the last next() counts,
-/// since nothing has been asked for since then.
+/// since nothing has been requested since then.
 double Requests::wake() const {
   if (stopped_) return never;
   double when = line_.retry_at() > looked_ ? line_.retry_at() : never;

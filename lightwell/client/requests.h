@@ -17,13 +17,13 @@
 
 namespace lightwell {
 
-/// The requests of a client: asks for what a download lacks, follows the answers, and tries again what failed.
+/// The requests of a client: requests what a download lacks, follows the responses, and retries what failed.
 class Requests {
  public:
   Requests(Download& download, Strategy strategy, uint64_t seed)
       : download_(download), order_(download), strategy_(strategy), line_(seed) {}
 
-  /// The next thing to do, if any; `weights` as in choose().
+  /// The next action, if any; `weights` as in choose().
   std::optional<Action> next(std::span<const float> weights, double now);
   void respond(uint32_t id, const ResponseHead& head, double now);
   void receive(uint32_t id, Bytes bytes, double now);
@@ -31,13 +31,12 @@ class Requests {
   void fail(uint32_t id, double now);
 
   void set_strategy(Strategy strategy) { strategy_ = strategy; }
-  /// Ends everything: what is under way is cancelled, and nothing is asked any more.
+  /// Cancels all open requests and makes no more.
   void stop();
-  /// The reason why the requests stopped by themselves; none while they run, or when stop() was called from outside.
+  /// Why the requests gave up; nullopt while they run, and after stop() was called from outside.
   const std::optional<FailureUpdate>& failure() const { return failure_; }
 
-  /// True while the answer that brought the opening is still under way and will bring the file's bytes up to
-  /// `position`.
+  /// True while the response that delivered the opening is still arriving and will deliver the file up to `position`.
   bool opening_brings(uint64_t position) const;
 
   double wake() const;
@@ -48,9 +47,9 @@ class Requests {
   struct Request {
     Cursor cursor;
     uint64_t end = 0;        ///< the body is read up to this position of the file
-    std::optional<Run> run;  ///< the extents that it asks for; none: it asks for the opening, or the witness
-    uint64_t gained = 0;     ///< good bytes
-    double heard = 0;        ///< time of the last sign of life
+    std::optional<Run> run;  ///< the requested extents; nullopt for the opening and the witness
+    uint64_t gained = 0;     ///< valid bytes received
+    double heard = 0;        ///< time of the last event
   };
   using Open = std::map<uint32_t, Request>;
 
@@ -59,14 +58,15 @@ class Requests {
   void respond_partial(Open::iterator request, std::string_view content_range, double now);
   void respond_whole(Open::iterator request);
   void respond_refused(Open::iterator request, const ResponseHead& head, double now);
-  /// Gives up when the file no longer has this length.
+  /// Gives up when this length differs from that of earlier responses or of the GLB header.
   void check_length(uint64_t length);
   void note_etag(std::string_view etag);
-  /// Forgets a request that is over. After a failed one the next ones wait.
+  /// Removes a request that has ended. A failed one starts a pause.
   void end(Open::iterator request, bool failed, double now);
   /// Cancels a request that failed.
   void abandon(Open::iterator request, double now);
   void drop_silent(double now);
+  void give_up(FailureUpdate failure);
   void give_up(FailureUpdate::Reason reason, std::string message);
 
   Download& download_;
@@ -77,10 +77,10 @@ class Requests {
   double looked_ = -1;  ///< time of the last next()
   Open open_;
   std::vector<uint32_t> cancels_;
-  std::optional<uint32_t> whole_file_request_;  ///< the one whose response brings the whole file
-  std::string etag_;                            ///< the first one
+  std::optional<uint32_t> whole_file_request_;  ///< the one whose response delivers the whole file
+  std::string etag_;                            ///< the first one received
   bool etags_differ_ = false;
-  uint64_t length_ = 0;  ///< of the file, as the server says; 0 while unknown
+  uint64_t length_ = 0;  ///< of the file, as stated by the server; 0 while unknown
   bool stopped_ = false;
   std::optional<FailureUpdate> failure_;
 };

@@ -5,7 +5,7 @@
 
 namespace lightwell {
 
-/// Brings a stream's marks up to what its table and the download know by now, and finds its first missing extent.
+/// Extends a stream's marks to all extents known by now and advances to its first missing one.
 RunOrder::Stream& RunOrder::follow(size_t stream) {
   streams_.resize(download_.directory().streams.size());
   Stream& order = streams_[stream];

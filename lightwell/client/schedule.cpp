@@ -16,13 +16,13 @@ int rank(Strategy strategy, StreamKind kind) {
   return 0;
 }
 
-/// The error that remains when all blocks before `block` are there.
+/// The error that remains once all blocks before `block` have arrived.
 float error_before(const Download& download, size_t stream, uint32_t block) {
   return block == 0 ? download.directory().streams[stream].error : download.table(stream).rows()[block - 1].error;
 }
 
-/// The share of the stream's first error that a run takes away per byte. A page itself takes nothing away: it is worth
-/// the average of all that follows it.
+/// The share of the stream's first error that a run removes per byte. A page removes nothing itself; it is worth the
+/// average of everything after it.
 double benefit(const Download& download, const Run& run) {
   const StreamEntry& entry = download.directory().streams[run.stream];
   if (entry.error <= 0) return 0;

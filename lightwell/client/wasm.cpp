@@ -41,7 +41,7 @@ uint32_t word_of(const AttributeLayout& layout) {
          uint32_t(layout.components) << 16 | uint32_t(layout.stride) << 20 | uint32_t(layout.normalized) << 31;
 }
 
-/// Puts an update into the record and gives its kind; wasm.h says what each word is.
+/// Writes an update to the record and returns its kind; wasm.h describes the words.
 struct WriteUpdate {
   uint32_t operator()(const OpeningUpdate& update) { return answer(1, address(update.glb.data()), update.glb.size()); }
   uint32_t operator()(const MeshUpdate& update) {

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <new>
 
-// Replaces what the standard libraries do when all is lost by a trap: their own ways print a message, which would
-// bring in printf and the only functions that the module would have to import.
+// Makes the standard libraries trap on fatal errors. By default they print a message, which would bring in printf and
+// the only functions that the module would have to import.
 
 _LIBCPP_BEGIN_NAMESPACE_STD
 void __libcpp_verbose_abort(const char*, ...) { __builtin_trap(); }
@@ -24,7 +24,7 @@ void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
-// WebAssembly has instructions for these, to which the compiler's builtins turn; the C library was built without.
+// WebAssembly has instructions for these, to which the builtins compile; the C library was built without them.
 extern "C" void* memcpy(void* to, const void* from, std::size_t size) { return __builtin_memcpy(to, from, size); }
 extern "C" void* memmove(void* to, const void* from, std::size_t size) { return __builtin_memmove(to, from, size); }
 extern "C" void* memset(void* to, int value, std::size_t size) { return __builtin_memset(to, value, size); }

@@ -73,7 +73,7 @@ int DocumentBuilder::colors(const std::vector<Vec4f>& values) {
 
 int DocumentBuilder::indices(const std::vector<Face>& faces, size_t vertices) {
   const size_t count = faces.size() * 3;
-  if (vertices > 65535)  // the largest index of a type would restart a strip, so it is never used
+  if (vertices > 65535)  // the largest index of a type restarts a strip, so it is never used
     return accessor(bytes_of(faces), static_cast<int>(Component::u32), "SCALAR", count, element_array_buffer);
   std::vector<uint16_t> narrow;
   narrow.reserve(count);

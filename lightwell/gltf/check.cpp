@@ -46,7 +46,7 @@ Result<void> check_references(const Json& json) {
   return result;
 }
 
-/// A member that is a whole number of at least `least`, or is missing where `fallback` is at least that.
+/// Reads a whole number of at least `least`. A missing member reads as `fallback`, and fails when that is less.
 Result<uint64_t> size_member(const Json& object, const char* key, int64_t least, int64_t fallback,
                              const std::string& name) {
   const Json& value = member(object, key);
@@ -80,7 +80,7 @@ Result<void> check_buffer_view(const Json& json, const Json& view, const std::st
   return {};
 }
 
-/// That `count` elements from `offset` on lie in the buffer view `index`.
+/// Checks that `count` elements from `offset` on lie in the buffer view `index`.
 Result<void> check_span(const Json& json, int index, uint64_t offset, uint64_t count, const ElementType& type,
                         const std::string& name) {
   const Json& view = json["bufferViews"][static_cast<size_t>(index)];
@@ -204,7 +204,7 @@ Result<std::vector<int>> parents_of(const Json& nodes) {
   return parents;
 }
 
-/// Every node of a forest is reached from a root; those of a cycle are not.
+/// Fails when the nodes have a cycle: its nodes are not reached from any root.
 Result<void> check_cycles(const Json& nodes, const std::vector<int>& parents) {
   std::vector<bool> reached(nodes.size(), false);
   std::vector<size_t> open;
@@ -239,7 +239,7 @@ Result<void> check_forest(const Json& json) {
   return {};
 }
 
-/// True when everything named `extensions` in a part of the document, but for extras, is an object.
+/// True when every member named `extensions` in a part of the document, except in extras, is an object.
 bool has_sound_extensions(const Json& part) {
   if (part.is_array()) return std::all_of(part.begin(), part.end(), has_sound_extensions);
   if (!part.is_object()) return true;
@@ -248,7 +248,7 @@ bool has_sound_extensions(const Json& part) {
   return true;
 }
 
-/// Whoever writes a document again edits its lists of extensions.
+/// Checks that all `extensions` are objects, since later code edits them.
 Result<void> check_extensions(const Json& json) {
   for (const auto& [key, value] : json.items()) {
     if (key == "extras") continue;

@@ -5,13 +5,12 @@
 
 namespace lightwell {
 
-/// Fails unless the JSON says that it is glTF 2.0 (asset.version and minVersion).
+/// Fails unless asset.version is 2.x and asset.minVersion, if present, is 2.0.
 Result<void> check_version(const Json& json);
 
-/// Checks what later reads rely on: arrays and objects where glTF has them, every reference in range, buffer views
-/// inside their buffers' stated lengths, accessors inside their views, primitives' attributes of one length, nodes a
-/// forest. Takes time linear in the document, and no stack for deep node trees. What is wrong but harmless is warned
-/// of.
+/// Checks the structure that later reads rely on: arrays and objects where glTF has them, references in range, buffer
+/// views inside their buffers' stated lengths, accessors inside their views, attributes of a primitive of equal count,
+/// nodes in a forest. Takes linear time and does not recurse into the node tree. Harmless faults become warnings.
 Result<void> check_document(const Json& json, Report& report);
 
 }  // namespace lightwell

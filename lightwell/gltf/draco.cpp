@@ -28,7 +28,8 @@ Result<std::unique_ptr<draco::Mesh>> decode_mesh(Bytes bytes, const std::string&
   }
 }
 
-/// The values of all points as components of type T, elements `stride` bytes apart.
+/// Writes the values of all points as components of type T, elements `stride` bytes apart. False when a value is
+/// damaged.
 template <typename T>
 bool copy_values(const draco::PointAttribute& attribute, uint32_t points, int components, size_t stride,
                  std::vector<uint8_t>& bytes) {
@@ -55,7 +56,7 @@ bool copy_values(const draco::PointAttribute& attribute, uint32_t points, const 
   return false;
 }
 
-/// Decodes a document's Draco primitives one after the other.
+/// Decodes the Draco primitives of a document one after the other.
 class Expansion {
  public:
   Expansion(Document& document, Budget& budget) : document_(document), budget_(budget) {}
@@ -71,7 +72,7 @@ class Expansion {
     for (const auto& [semantic, id] : member(draco, "attributes").items())
       LW_CHECK(
           expand_attribute(*mesh, whole_number(id), primitive, semantic, view, name + "." + semantic.substr(0, 40)));
-    primitive["mode"] = static_cast<int>(PrimitiveMode::triangles);  // what was a strip has been decoded to triangles
+    primitive["mode"] = static_cast<int>(PrimitiveMode::triangles);  // strips have been decoded to triangles
     primitive["extensions"].erase(extension_name);
     if (primitive["extensions"].empty()) primitive.erase("extensions");
     return {};
@@ -110,13 +111,13 @@ class Expansion {
     if (!copy_values(*attribute, mesh.num_points(), type, stride, bytes)) return fail(name, "damaged Draco data");
     accessor["count"] = mesh.num_points();
     accessor["bufferView"] = append_buffer_view(document_, std::move(bytes), stride, array_buffer);
-    // Quantisation moves the bounds a little.
+    // Draco's quantisation moves the bounds a little.
     if (accessor.contains("min")) update_bounds(document_, index_of(primitive["attributes"], semantic.c_str()));
     return {};
   }
 
-  /// The accessor that `reference` means, to be filled from the Draco stream in `view`. One that another stream has
-  /// filled before is copied, and the reference led to the copy.
+  /// The accessor at `reference`, to be filled from the Draco stream in `view`. An accessor that another stream has
+  /// filled is copied first, and `reference` redirected to the copy.
   Json& own_accessor(Json& reference, int view) {
     auto index = static_cast<size_t>(whole_number(reference));
     Json& accessors = document_.json["accessors"];

@@ -42,7 +42,7 @@ constexpr std::array known = std::to_array<std::string_view>({
     "MSFT_lod",
 });
 
-/// Takes names out of the lists of extensions; a list that becomes empty goes too.
+/// Removes names from the lists of extensions, and lists that become empty.
 template <typename Unwanted>
 void forget(Json& json, const Unwanted& unwanted) {
   for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
@@ -61,7 +61,7 @@ bool is_known(std::string_view name) {
   return std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("LIGHTWELL_");
 }
 
-/// Collects the names of removed extensions. Extras may hold anything and are left alone.
+/// Removes unknown extensions and collects their names. Extras may hold anything and are left alone.
 void drop_unknown(Json& json, std::set<std::string>& dropped) {
   if (json.is_array())
     for (Json& value : json) drop_unknown(value, dropped);

@@ -5,17 +5,17 @@
 
 namespace lightwell {
 
-/// Fails with the name of an extension that the document requires and that is not known here.
+/// Fails, naming the extension, when the document requires one that is not known here.
 Result<void> check_required_extensions(const Json& json);
 
-/// Removes the extensions that are not known here, each with a warning. What is left is read, or holds nothing but
-/// numbers and references that references.h knows, and so survives into a file that is written.
+/// Removes the extensions that are not known here and warns of them. The known ones survive rewriting: they are either
+/// read here, or hold only values and the references that references.h knows.
 void drop_unknown_extensions(Json& json, Report& report);
 
-/// True when extensionsUsed names it.
+/// True when extensionsUsed lists `name`.
 bool uses_extension(const Json& json, std::string_view name);
 
-/// Removes `name` from extensionsUsed and extensionsRequired, once nothing uses it any more.
+/// Removes `name` from extensionsUsed and extensionsRequired; to be called once nothing uses it any more.
 void forget_extension(Json& json, std::string_view name);
 
 }  // namespace lightwell

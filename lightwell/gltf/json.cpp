@@ -13,9 +13,9 @@ const Json null;
 constexpr size_t max_depth = 128;
 constexpr size_t max_keys = 8192;
 
-/// Counts levels and keys without building anything. Text that is no JSON is left to the parser.
+/// Checks the limits on levels and keys before anything is built. Syntax errors are left to the parser.
 Result<void> check_shape(Bytes text) {
-  std::vector<size_t> keys;  // of each open object or array
+  std::vector<size_t> keys;  // number of keys in each open object or array
   bool in_string = false;
   for (size_t i = 0; i < text.size(); i++) {
     const uint8_t c = text[i];
@@ -45,7 +45,7 @@ Result<Json> parse_json(Bytes text, uint64_t place) {
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const Json::parse_error& error) {
-    const size_t read = whole - text.size() + std::max<size_t>(error.byte, 1);  // up to and with what is wrong
+    const size_t read = whole - text.size() + std::max<size_t>(error.byte, 1);  // up to and including the error
     return fail({"", "JSON", "syntax error", ErrorKind::bad_input, place + read - 1});
   } catch (const Json::exception&) {
     return fail("JSON", "holds a number that is too large");

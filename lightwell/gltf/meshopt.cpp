@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
-/// The extension object of a buffer view, as its JSON says it.
+/// A compressed buffer view, as described by its extension.
 struct Packed {
   Bytes bytes;
   size_t count = 0;
@@ -25,8 +25,8 @@ struct Packed {
   std::string filter;
 };
 
-/// The filter COLOR of KHR_meshopt_compression: from Y, Co, Cg and alpha, whose highest bit tells the number of bits in
-/// use, to normalised RGBA.
+/// The COLOR filter of KHR_meshopt_compression: converts Y, Co, Cg and alpha to normalised RGBA. The highest set bit of
+/// alpha gives the number of bits in use.
 template <typename Unsigned, typename Signed>
 void decode_colors(uint8_t* bytes, size_t count) {
   constexpr auto largest = static_cast<float>(std::numeric_limits<Unsigned>::max());
@@ -36,7 +36,7 @@ void decode_colors(uint8_t* bytes, size_t count) {
     const int bits = c[3] == 0 ? 1 : static_cast<int>(std::bit_width(static_cast<unsigned>(c[3])));
     const int range = (1 << bits) - 1;
     const int y = c[0], co = static_cast<Signed>(c[1]), cg = static_cast<Signed>(c[2]);
-    const int alpha = ((c[3] << 1) & range) | (c[3] & 1);  // the marking bit goes, the lowest one is doubled
+    const int alpha = ((c[3] << 1) & range) | (c[3] & 1);  // drops the marker bit and repeats the lowest one
     const int rgba[4] = {y + co - cg, y + cg, y - co - cg, alpha};
     for (int k = 0; k < 4; k++) {
       const float value = std::floor(static_cast<float>(rgba[k]) * largest / static_cast<float>(range) + 0.5f);
@@ -70,8 +70,8 @@ bool is_version_1(const Packed& packed) {
   return packed.mode == "ATTRIBUTES" && packed.bytes[0] == meshopt_vertices_v1;
 }
 
-/// The fewest bytes that can hold so many elements: a header of two bits for every 16 values of a byte column, or one
-/// byte a triangle or index. A file that announces more is lying, and must not make us allocate.
+/// The fewest bytes that can encode the elements: two header bits for every 16 values of a byte column, or one byte a
+/// triangle or index. Files that claim more elements are refused before memory is allocated.
 double least_bytes(const Packed& packed) {
   const auto count = static_cast<double>(packed.count);
   if (is_version_1(packed)) return least_bytes_v1(packed.count, packed.stride);
@@ -79,7 +79,7 @@ double least_bytes(const Packed& packed) {
   return packed.mode == "TRIANGLES" ? count / 3 : count;
 }
 
-/// The elements before any filter; empty when the bytes are damaged.
+/// The decoded elements, before any filter; nullopt when the bytes are damaged.
 std::optional<std::vector<uint8_t>> decode_mode(const Packed& packed) {
   if (is_version_1(packed)) return decode_meshopt_vertices_v1(packed.bytes, packed.count, packed.stride);
   const uint8_t* from = packed.bytes.data();

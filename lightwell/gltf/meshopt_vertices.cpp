@@ -15,7 +15,7 @@ size_t block_size(size_t stride) { return std::min<size_t>(8192 / stride / group
 /// How the deltas of one byte column of a block are stored.
 enum class Control { narrow, wide, zero, literal };
 
-/// Bits a delta in a group, by control mode and the group's two header bits.
+/// Bits per delta in a group, by control mode and the two header bits of the group.
 constexpr int bits_of[2][4] = {{0, 1, 2, 4}, {1, 2, 4, 8}};
 
 template <typename T>
@@ -23,7 +23,8 @@ T unzigzag(T value) {
   return static_cast<T>((value >> 1) ^ static_cast<T>(-static_cast<T>(value & 1)));
 }
 
-/// Decodes block after block; an element continues the one before it, the first one that of the tail.
+/// Decodes block by block. Each element is coded as its difference from the one before it, the first from that in the
+/// tail.
 class VertexDecoder {
  public:
   VertexDecoder(Bytes body, Bytes last, Bytes channels, size_t stride)
@@ -44,7 +45,7 @@ class VertexDecoder {
  private:
   using Column = std::array<uint8_t, 256>;
 
-  /// Reads one byte column; after every fourth one, the four together are a channel whose deltas can be added up.
+  /// Reads one byte column. Every four columns form a channel, whose deltas are added up once all four are read.
   void read_column(Control control, size_t count, Column& deltas, size_t column, std::span<uint8_t> elements) {
     deltas.fill(0);
     if (control == Control::literal) {
@@ -63,8 +64,8 @@ class VertexDecoder {
     for (size_t g = 0; g < groups; g++) read_group(bits[header[g / 4] >> (2 * (g % 4)) & 3], &deltas[g * group_size]);
   }
 
-  /// Sixteen deltas of 1, 2 or 4 bits each, those with all bits set as whole bytes behind them; or of none, or eight
-  /// bits.
+  /// Reads sixteen deltas of 0, 1, 2, 4 or 8 bits each. With 1, 2 or 4 bits, a delta with all bits set is an escape for
+  /// a whole byte that follows the group.
   void read_group(int bits, uint8_t* deltas) {
     const Bytes packed = reader_.take(group_size * static_cast<size_t>(bits) / 8);
     if (bits == 0 || !reader_.ok()) return;

@@ -5,8 +5,8 @@
 
 namespace lightwell {
 
-/// read_document for JSON that is parsed already, and the data of a GLB's BIN chunk: what the JSON refers to lies in
-/// there or in data URIs.
+/// read_document for the parsed JSON of a GLB and the data of its BIN chunk. The JSON should refer only to that chunk
+/// and to data URIs: relative URIs are resolved against the working directory.
 Result<Document> read_document(Json json, Bytes bin, Report& report);
 
 }  // namespace lightwell

@@ -25,7 +25,7 @@ std::vector<Face> faces_of(const std::vector<uint32_t>& corners, PrimitiveMode m
   return faces;
 }
 
-/// Numbers the corners anew by the vertices they use, in ascending order, and returns those vertices.
+/// Renumbers the corners to index only the vertices in use, and returns those in ascending order.
 std::vector<uint32_t> compact(std::vector<uint32_t>& corners) {
   std::vector<uint32_t> used = corners;
   std::sort(used.begin(), used.end());
@@ -57,8 +57,8 @@ class PrimitiveReader {
   }
 
  private:
-  /// The data of an attribute of `least` to `most` rows; with a stride of 0 when the primitive has none of this name.
-  /// Integers must be normalised unless `plain_integers` (KHR_mesh_quantization) are allowed.
+  /// Locates an attribute of `least` to `most` rows; the stride is 0 when the primitive does not have it. Integers must
+  /// be normalised unless `plain_integers` (KHR_mesh_quantization) are allowed.
   Result<AccessorData> attribute(const char* semantic, int least, int most, bool plain_integers) {
     const int accessor = index_of(member(primitive_, "attributes"), semantic);
     if (accessor < 0) return AccessorData();
@@ -109,7 +109,8 @@ class PrimitiveReader {
                 "vertex " + std::to_string(wrong - positions.begin()) + " is not at a finite position");
   }
 
-  /// Normals that are no directions (exporters write them for triangles without area) are computed from the faces.
+  /// Replaces normals without a direction, which exporters write for triangles without area, by normals computed from
+  /// the faces.
   Result<void> read_normals() {
     LW_TRY(data, attribute("NORMAL", 3, 3, false));
     if (!data.stride) return {};
@@ -163,8 +164,8 @@ class PrimitiveReader {
   Report& report_;
   Mesh mesh_;
   size_t vertex_count_ = 0;
-  std::vector<uint32_t> used_;                   ///< the vertices that are read, when not all are
-  const std::vector<uint32_t>* only_ = nullptr;  ///< points to used_ then
+  std::vector<uint32_t> used_;                   ///< the vertices to read when not all are in use
+  const std::vector<uint32_t>* only_ = nullptr;  ///< then points to used_
 };
 
 }  // namespace

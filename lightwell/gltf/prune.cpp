@@ -7,7 +7,7 @@
 namespace lightwell {
 namespace {
 
-/// New index of each element of an array, -1 for those that nothing refers to.
+/// The new index of each element of an array, -1 for those that nothing refers to.
 std::vector<int> used_elements(const Json& json, std::string_view array) {
   std::vector<int> numbers(referenced_array(json, array).size(), -1);
   for_each_reference(json, [&](const Json& value, std::string_view to, const std::string&) {
@@ -30,7 +30,7 @@ void keep_numbered(Elements& elements, const std::vector<int>& numbers) {
   elements.erase(elements.begin() + kept, elements.end());
 }
 
-/// Removes the unused elements of a top-level array. Returns their new numbers.
+/// Removes the unused elements of a top-level array and returns the new index of each, -1 for the removed ones.
 std::vector<int> drop_unused_elements(Json& json, const char* array) {
   std::vector<int> numbers = used_elements(json, array);
   if (std::find(numbers.begin(), numbers.end(), -1) == numbers.end()) return numbers;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "lightwell/base/glb.h"
 #include "lightwell/gltf/check.h"
 #include "lightwell/gltf/document.h"
 #include "lightwell/gltf/expand.h"
@@ -11,15 +12,12 @@
 namespace lightwell {
 namespace {
 
-constexpr uint32_t glb_magic = 0x46546c67;   // "glTF"
-constexpr uint32_t json_chunk = 0x4e4f534a;  // "JSON"
-constexpr uint32_t bin_chunk = 0x004e4942;   // "BIN"
 constexpr size_t glb_header_bytes = 12;
 
-/// The largest sum of all buffers, which is also the most that one GLB can hold.
+/// The limit on the sum of all buffers, which is also the most that a GLB can hold.
 constexpr double max_bytes = 0x1p32;
 
-/// The two parts that glTF gives a GLB a meaning for.
+/// The two chunks of a GLB that glTF defines.
 struct Chunks {
   Bytes json;
   Bytes bin;
@@ -37,7 +35,7 @@ Result<Bytes> next_chunk(ByteReader& reader, uint32_t& type, const std::string& 
   return chunk;
 }
 
-/// The length that a GLB's header gives bounds its chunks; bytes after it are none of ours.
+/// The part of the file that holds chunks, limited by the length in the GLB header. Bytes after it are ignored.
 Result<Bytes> glb_body(Bytes bytes, Report& report) {
   ByteReader reader(bytes);
   reader.u32();
@@ -63,18 +61,18 @@ Result<Chunks> split_glb(Bytes bytes, Report& report) {
     uint32_t type = 0;
     LW_TRY(chunk, next_chunk(reader, type, name));
     if (chunk.size() % 4 != 0) report.warn("GLB: the length of a chunk is not a multiple of 4");
-    if ((type == json_chunk) != (i == 0))
+    if ((type == glb_json_chunk) != (i == 0))
       return fail(name, i == 0 ? "is not of type JSON" : "is a second chunk of type JSON");
-    if (type == bin_chunk && i != 1) return fail(name, "the chunk of type BIN is not the second one");
-    if (type == json_chunk) chunks.json = chunk;
-    if (type == bin_chunk) chunks.bin = chunk;
-    chunks.has_bin |= type == bin_chunk;
+    if (type == glb_bin_chunk && i != 1) return fail(name, "the chunk of type BIN is not the second one");
+    if (type == glb_json_chunk) chunks.json = chunk;
+    if (type == glb_bin_chunk) chunks.bin = chunk;
+    chunks.has_bin |= type == glb_bin_chunk;
   }
   if (chunks.json.empty()) return fail("GLB", "has no JSON");
   return chunks;
 }
 
-/// True for the stand-in of a buffer whose views are all compressed: it need not be read.
+/// True for a fallback buffer, which need not be read since all of its views are compressed.
 bool is_fallback(const Json& buffer) {
   return boolean(extension(buffer, "EXT_meshopt_compression"), "fallback", false) ||
          boolean(extension(buffer, "KHR_meshopt_compression"), "fallback", false);
@@ -85,7 +83,7 @@ Result<std::vector<uint8_t>> read_buffer(const Document& document, size_t index,
   if (is_fallback(buffer)) return std::vector<uint8_t>();
   if (member(buffer, "uri").is_string()) return read_uri(text(buffer, "uri"), document.folder);
   if (index == 0 && chunks.has_bin) return std::vector<uint8_t>(chunks.bin.begin(), chunks.bin.end());
-  return std::vector<uint8_t>();  // a stand-in without the mark; see check_stand_ins
+  return std::vector<uint8_t>();  // an unmarked fallback buffer; see check_stand_ins
 }
 
 Result<void> read_buffers(Document& document, const Chunks& chunks) {
@@ -103,7 +101,7 @@ Result<void> read_buffers(Document& document, const Chunks& chunks) {
     if (total > max_bytes) return fail(ErrorKind::limit, "buffers", "hold more than 4 GiB");
     if (bytes->size() > length) {
       bytes->resize(length);
-      bytes->shrink_to_fit();  // a file may name a large one again and again for a byte of each
+      bytes->shrink_to_fit();  // a file may refer to a large one many times, for a byte each
     }
     json.erase("uri");
     document.buffers.push_back(std::move(*bytes));
@@ -111,8 +109,8 @@ Result<void> read_buffers(Document& document, const Chunks& chunks) {
   return {};
 }
 
-/// Decodes what is compressed, and zeros that are not written out. The allowance is meshopt's largest ratio of 64, and
-/// enough for every small file.
+/// Expands compressed and sparse data. The budget allows for the largest ratio of meshopt, 64, and is ample for every
+/// small file.
 Result<void> expand(Document& document, size_t file_bytes) {
   double bytes = static_cast<double>(file_bytes);
   for (const auto& buffer : document.buffers) bytes += static_cast<double>(buffer.size());
@@ -122,7 +120,7 @@ Result<void> expand(Document& document, size_t file_bytes) {
   return expand_sparse(document, budget);
 }
 
-/// Once all views are decoded, a buffer without bytes that is still in use is a hole.
+/// Fails when a view still uses a buffer without bytes after all views have been decoded.
 Result<void> check_stand_ins(const Document& document) {
   const Json& views = member(document.json, "bufferViews");
   for (size_t i = 0; i < views.size(); i++) {

@@ -10,7 +10,7 @@ constexpr std::string_view lights = "extensions.KHR_lights_punctual.lights";
 constexpr std::string_view variants = "extensions.KHR_materials_variants.variants";
 
 struct Pattern {
-  std::string_view from;  ///< "[]" stands for every element, "*" for the rest of any key
+  std::string_view from;  ///< "[]" matches every element, a leading "*" any start of a key
   std::string_view to;
 };
 
@@ -51,7 +51,7 @@ constexpr std::array patterns = std::to_array<Pattern>({
     {"bufferViews[].extensions.*.buffer", "buffers"},
 });
 
-/// Follows one pattern through the JSON and visits the values at its end.
+/// Follows one pattern through the JSON and visits the values that match it.
 template <typename AnyJson>
 class Walk {
  public:

@@ -42,7 +42,7 @@ Result<std::vector<uint8_t>> decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// Percent-encoding undone; a % that begins no code stands for itself.
+/// Decodes percent-encoding. A % that does not begin a code is kept.
 std::string decode_percent(std::string_view text) {
   std::string plain;
   for (size_t i = 0; i < text.size(); i++) {

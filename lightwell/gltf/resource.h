@@ -9,9 +9,9 @@
 
 namespace lightwell {
 
-/// The bytes that a URI of a document means: a data URI, or a file below `folder` by a relative path with
-/// percent-encoding. Refused are schemes, absolute paths, "..", and links that lead out of the folder. The error's
-/// element is left to the caller.
+/// The bytes that a URI in a document refers to: a data URI, or a percent-encoded relative path to a file below
+/// `folder`. Fails for other schemes, absolute paths, ".." and links that lead out of the folder. The caller adds the
+/// element to the error.
 Result<std::vector<uint8_t>> read_uri(const std::string& uri, const std::filesystem::path& folder);
 
 }  // namespace lightwell

@@ -7,15 +7,15 @@
 namespace lightwell {
 namespace {
 
-/// What an accessor is for; its number is glTF's target of its buffer view.
+/// The use of an accessor. The numbers are glTF's targets of buffer views.
 enum class Role { unused = 0, other = 1, vertices = 34962, indices = 34963 };
 
-/// What the arrays of one view have in common: their role, and bytes from an element to the next.
+/// The properties shared by all arrays of a view: role and bytes from one element to the next.
 using ViewKind = std::pair<Role, size_t>;
 
 struct Uses {
-  std::vector<Role> accessors;  ///< other: of several roles, or of none in a mesh
-  std::vector<int> views;       ///< how many elements refer to each
+  std::vector<Role> accessors;  ///< `other` when there are several roles, or none in a mesh
+  std::vector<int> views;       ///< number of references to each
 };
 
 Uses uses_of(const Json& json) {
@@ -30,7 +30,7 @@ Uses uses_of(const Json& json) {
     Role& known = uses.accessors[index];
     known = known == Role::unused || known == role ? role : Role::other;
   });
-  // What an accessor that nothing refers to says of a view does not keep the others from moving.
+  // Views referenced only by unused accessors do not keep other accessors from moving.
   for (size_t i = 0; i < uses.accessors.size(); i++) {
     const int view = index_of(json["accessors"][i], "bufferView");
     if (uses.accessors[i] == Role::unused && view >= 0 && static_cast<size_t>(view) < uses.views.size())
@@ -39,8 +39,8 @@ Uses uses_of(const Json& json) {
   return uses;
 }
 
-/// Whether an accessor's elements can be moved into a view of others: they have a view of their own, one after the
-/// other without gaps, and vertices take a multiple of four bytes, as glTF asks of strides.
+/// Whether an accessor's elements can move into a shared view: they have a view of their own without gaps, and vertices
+/// take a multiple of four bytes, as glTF requires of strides.
 bool movable(const Document& document, const Uses& uses, size_t accessor) {
   const Role role = uses.accessors[accessor];
   const auto data = locate(document, static_cast<int>(accessor));

@@ -8,7 +8,7 @@
 namespace lightwell {
 namespace {
 
-/// Accessors that carry vertices, indices or instances.
+/// The accessors that hold vertices, indices or instances.
 std::set<int> drawn_accessors(const Json& json) {
   std::set<int> drawn;
   for (const Json& mesh : member(json, "meshes"))
@@ -24,7 +24,7 @@ std::set<int> drawn_accessors(const Json& json) {
   return drawn;
 }
 
-/// The accessor's elements without its sparse values, `stride` apart; zeros when it has no buffer view.
+/// The accessor's elements without its sparse values, `stride` bytes apart; zeros when it has no buffer view.
 Result<std::vector<uint8_t>> dense_elements(const Document& document, const Json& accessor, size_t count, size_t stride,
                                             const std::string& name) {
   std::vector<uint8_t> bytes(count * stride);
@@ -34,7 +34,7 @@ Result<std::vector<uint8_t>> dense_elements(const Document& document, const Json
   return bytes;
 }
 
-/// One half of accessor.sparse as an accessor of its own.
+/// The indices or values of accessor.sparse, in the form of an accessor.
 Json part_accessor(const Json& part, const char* type, const Json& count) {
   return {{"bufferView", part["bufferView"]},
           {"byteOffset", number(part, "byteOffset", 0)},
@@ -43,7 +43,7 @@ Json part_accessor(const Json& part, const char* type, const Json& count) {
           {"count", count}};
 }
 
-/// Puts the sparse values into `elements`.
+/// Writes the sparse values into `elements`.
 Result<void> apply_sparse(const Document& document, const Json& accessor, std::vector<uint8_t>& elements, size_t stride,
                           const std::string& name) {
   const Json& sparse = accessor["sparse"];

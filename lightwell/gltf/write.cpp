@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "lightwell/base/assert.h"
+#include "lightwell/base/glb.h"
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
 #include "lightwell/texture/image_file.h"
@@ -9,11 +10,7 @@
 namespace lightwell {
 namespace {
 
-constexpr uint32_t glb_magic = 0x46546c67;   // "glTF"
-constexpr uint32_t json_chunk = 0x4e4f534a;  // "JSON"
-constexpr uint32_t bin_chunk = 0x004e4942;   // "BIN"
-
-/// The media type of an image by its first bytes; empty when it is none that glTF or its extensions know.
+/// The media type of an image, from its first bytes; empty when neither glTF nor an extension knows it.
 std::string media_type(Bytes bytes) {
   if (const auto format = image_format(bytes)) return std::string(mime_type(*format));
   const std::string_view head(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 12));
@@ -22,7 +19,7 @@ std::string media_type(Bytes bytes) {
   return "";
 }
 
-/// Puts an image that lies elsewhere into a buffer of its own.
+/// Embeds an external image in a buffer of its own.
 void embed_image(Document& document, size_t index, Report& report) {
   auto bytes = read_image(document, static_cast<int>(index));
   std::string type = bytes ? media_type(*bytes) : "";
@@ -39,7 +36,7 @@ void embed_image(Document& document, size_t index, Report& report) {
   image["bufferView"] = view;
 }
 
-/// What of one buffer its views use, overlapping views as one piece, and where the piece goes.
+/// A part of a buffer covered by one view or by overlapping ones, and its new place.
 struct Piece {
   size_t begin = 0;
   size_t end = 0;
@@ -52,8 +49,8 @@ struct Range {
   Json* view = nullptr;
 };
 
-/// Appends the used pieces of `source` to `merged` and corrects the views' offsets. A piece begins at a multiple of
-/// four bytes where it did before, so that what was aligned stays so.
+/// Appends the used pieces of `source` to `merged` and updates their views. A piece keeps its offset modulo 4, so that
+/// aligned data stays aligned.
 void merge_buffer(const std::vector<uint8_t>& source, std::vector<Range>& ranges, std::vector<uint8_t>& merged) {
   std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
   Piece piece;
@@ -126,12 +123,12 @@ Result<std::vector<uint8_t>> write_glb(Document document, Report& report) {
   writer.u32(2);
   writer.u32(static_cast<uint32_t>(size));
   writer.u32(static_cast<uint32_t>(padded(parts.json.size())));
-  writer.u32(json_chunk);
+  writer.u32(glb_json_chunk);
   writer.append(as_bytes(parts.json));
   writer.align(4, ' ');
   if (parts.bin.empty()) return writer.release();
   writer.u32(static_cast<uint32_t>(padded(parts.bin.size())));
-  writer.u32(bin_chunk);
+  writer.u32(glb_bin_chunk);
   writer.append(parts.bin);
   writer.align(4);
   return writer.release();

@@ -17,7 +17,7 @@ constexpr float band0 = 0.886227f;
 constexpr float band1 = 2 * 0.511664f;
 constexpr float band2 = 2 * 0.429043f;       // xy, yz, xz
 constexpr float zonal_square = 0.743125f;    // of z^2
-constexpr float zonal_constant = 0.247708f;  // taken away
+constexpr float zonal_constant = 0.247708f;  // subtracted
 constexpr float difference = 0.429043f;      // of x^2 - y^2
 
 }  // namespace

@@ -69,10 +69,10 @@ Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& offset_normal, cons
 
 namespace {
 
-// The means round an invalid node: nine moments, each with the weight that it has gathered.
+// The weighted means of the nine moments around an invalid node.
 struct Surroundings {
-  Moments sum;       // what lies on the side that the moment looks at
-  Moments any_side;  // the fallback for a side where nothing is known
+  Moments sum;       // E from the neighbours on the side that it faces
+  Moments any_side;  // from all neighbours: S, and E where that side has none
   std::array<float, 6> weight{};
   float total = 0;
 
@@ -97,7 +97,7 @@ struct Surroundings {
   }
 };
 
-// Adds the filled ones of the 26 neighbours of a node.
+// Adds up those of the 26 neighbours of a node that are filled.
 Surroundings look_around(const LightGrid& grid, const std::vector<uint8_t>& filled, size_t index) {
   const Vec3i n = grid.shape.node(index);
   Surroundings around;
@@ -121,7 +121,7 @@ void fill_invalid(LightGrid& grid) {
   for (size_t i = 0; i < filled.size(); i++) {
     if (!filled[i]) missing.push_back(i);
   }
-  // Ring by ring inwards; within a ring nobody sees the others.
+  // Fills ring by ring inwards; nodes of the same ring do not affect each other.
   while (!missing.empty()) {
     std::vector<size_t> later;
     std::vector<std::pair<size_t, Moments>> ring;

@@ -8,7 +8,7 @@
 
 namespace lightwell {
 
-/// How many nodes a grid of so many on each axis has, and the number of one of them: x fastest, z slowest.
+/// The number of nodes of a grid, and the index of node n: x fastest, z slowest. `nodes` is their number on each axis.
 inline size_t node_count(Vec3i nodes) {
   return static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1]) * static_cast<size_t>(nodes[2]);
 }
@@ -18,8 +18,8 @@ inline size_t node_index(Vec3i nodes, Vec3i n) {
              (static_cast<size_t>(n[1]) + static_cast<size_t>(nodes[1]) * static_cast<size_t>(n[2]));
 }
 
-/// The nodes of a regular grid over an axis-parallel box: node (i, j, k) stands at lo + (i, j, k) * cell. At least two
-/// nodes an axis; nodes are numbered x fastest, z slowest.
+/// The nodes of a regular grid over an axis-parallel box: node (i, j, k) is at lo + (i, j, k) * cell. At least two
+/// nodes an axis; indices run x fastest, z slowest.
 struct GridShape {
   Vec3f lo{};
   Vec3f cell = Vec3f::filled(1);  ///< distance between neighbours on each axis, metres
@@ -30,6 +30,7 @@ struct GridShape {
   Vec3i node(size_t index) const;
   Vec3f position(Vec3i n) const { return lo + cell * n.cast<float>(); }
   Vec3f hi() const { return position(nodes - Vec3i::filled(1)); }
+  bool operator==(const GridShape&) const = default;
 
   /// The grid over `box` with `longest` nodes on its longest axis and max(2, round(size / longest size * (longest - 1))
   /// + 1) on the others. A flat box is thickened to a cell.
@@ -51,37 +52,38 @@ struct Moments {
   }
 
   /// Irradiance (W/m2, RGB) on a surface of unit normal n: half of F.n + sum M_a n_a^2 + sum S_ab n_a n_b, never
-  /// negative. Exact for normals along an axis, and for radiance of degree up to two. Differs from the papers: see
-  /// docs/decisions/002-moments.md.
+  /// negative. Exact for normals along an axis, and for radiance of degree up to two. Differs from the papers cited at
+  /// LightGrid: see docs/decisions/002-moments.md.
   Vec3f irradiance(const Vec3f& n) const;
 };
 
-/// The irradiance vector grid of S08 (Pacanowski et al., Efficient Streaming of 3D Scenes with Complex Geometry and
-/// Complex Lighting, Web3D 2008) and R09 (Pacanowski et al., Volumetric Vector-Based Representation for Indirect
-/// Illumination Caching, INRIA RR-6983, 2009), in moments, with the validity of its nodes.
+/// The irradiance vector grid of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex
+/// Geometry and Complex Lighting", Web3D 2008) and R09 (Pacanowski et al., "Volumetric Vector-Based Representation for
+/// Indirect Illumination Caching", INRIA RR-6983, 2009), stored as moments, with the validity of each node.
 struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()
-  std::vector<uint8_t> valid;    ///< 1 where a node stands in free space, 0 inside a solid
-  float normal_offset = 0.5f;    ///< a lookup is moved by this many cells along the normal, docs/light.md section 5
+  std::vector<uint8_t> valid;    ///< 1 for a node in free space, 0 inside a solid
+  float normal_offset = 0.5f;    ///< lookups are shifted by this many cells along the normal (docs/light.md section 5)
 
-  /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`: trilinear
-  /// among the eight nodes round point + normal_offset * cell * offset_normal, valid ones at full weight and invalid
-  /// ones at 2^-13. The direction is the surface's normal, or for its reflection the mirrored one. Points outside are
-  /// clamped to the grid.
+  /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`. Interpolates
+  /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, weighted by node_weight.
+  /// The direction is the normal for diffuse reflection and the mirrored view direction for specular reflection. Points
+  /// outside are clamped to the grid.
   Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
-  /// The irradiance of the surface itself.
+  /// The same for diffuse reflection, in the direction of the normal.
   Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const { return irradiance(point, normal, normal); }
 };
 
-/// The weight of a node in lookups and averages: 1 when it is valid, 2^-13 when it is not. Small enough that a solid's
-/// inside never leaks, large enough for a half float, so that a lookup among invalid nodes alone still finds their
-/// filled values.
+/// The weight of a node in lookups and averages: 1 when it is valid, else 2^-13. That is small enough for the inside of
+/// a solid not to leak, and large enough for a half float, so that a lookup between invalid nodes only still finds
+/// their fill.
 constexpr float node_weight(bool valid) { return valid ? 1.0f : 0x1p-13f; }
 
-/// Gives invalid nodes the light of the free space around them (docs/light.md section 5): E_d is the mean of the
-/// neighbours on the d side, weighted by cos^2 / distance^2, S that of all neighbours by 1 / distance^2. Nodes deep
-/// inside solids are filled from those filled before them. Valid nodes never change; a grid without any stays as it is.
+/// Fills invalid nodes with the light of the free space around them (docs/light.md section 5): E_d is the mean of the
+/// neighbours on the d side, weighted by cos^2 / distance^2, and S the mean of all neighbours, weighted by 1 /
+/// distance^2. Nodes deep inside solids are filled from those filled before them. Valid nodes never change, nor does a
+/// grid without any.
 void fill_invalid(LightGrid& grid);
 
 }  // namespace lightwell

@@ -20,7 +20,7 @@ Vec3f LightField::irradiance(const Vec3f& point, const Vec3f& offset_normal, con
   Vec3f sum{};
   for (size_t i = 0; i < layers_.size(); i++) {
     const auto alike = [&](const Layer& layer) { return layer.contents == layers_[i].contents; };
-    // The first layer of each kind speaks for all of its kind.
+    // Layers of the same contents are looked up together, once, at the first of them.
     if (std::any_of(layers_.begin(), layers_.begin() + static_cast<std::ptrdiff_t>(i), alike)) continue;
     const Layer* answering = nullptr;
     for (size_t j = i; j < layers_.size(); j++) {

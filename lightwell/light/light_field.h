@@ -5,11 +5,11 @@
 
 namespace lightwell {
 
-/// Which light a grid holds.
+/// The light that a grid holds.
 struct GridContents {
   bool indirect = true;      ///< after at least one reflection
-  bool environment = false;  ///< straight from the environment
-  bool lamps = false;        ///< straight from the luminaires that no client lights by itself
+  bool environment = false;  ///< direct light of the environment
+  bool lamps = false;        ///< direct light of the luminaires that no client computes itself
 
   bool operator==(const GridContents&) const = default;
 };
@@ -27,12 +27,12 @@ class LightField {
   explicit LightField(std::vector<Layer> layers);
 
   bool empty() const { return layers_.empty(); }
-  /// The grids, the one of the highest priority first.
+  /// The grids by decreasing priority.
   const std::vector<Layer>& layers() const { return layers_; }
 
-  /// Irradiance (W/m2, RGB) as LightGrid::irradiance. Of grids with the same contents, the one of the highest priority
-  /// whose box the point lies in answers; where none does, the one of the lowest priority, which reaches farthest.
-  /// Light of different contents adds up.
+  /// Irradiance (W/m2, RGB) as LightGrid::irradiance. Of grids with the same contents, the one of highest priority
+  /// whose box contains the point is looked up, or else the one of lowest priority, which reaches farthest. Light of
+  /// different contents adds up.
   Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
 
  private:

@@ -10,13 +10,13 @@
 namespace lightwell {
 namespace {
 
-// The 27 numbers of a node and the share of valid nodes among those that they come from.
+// The 27 numbers of a node, and the fraction of valid nodes among those that they derive from.
 constexpr size_t channels = 28;
 constexpr size_t share_channel = 27;
 using Value = std::array<float, channels>;
 
-// One level of the pyramid. Twice as coarse as the level below, with half as many nodes an axis, rounded up: node c
-// stands for the nodes 2c and 2c + 1 below.
+// A level of the pyramid. It has half as many nodes an axis as the level below, rounded up: node c covers the nodes 2c
+// and 2c + 1 below.
 struct Level {
   Vec3i nodes;
   std::vector<Value> values;
@@ -52,8 +52,8 @@ Level finest(const LightGrid& grid, std::span<const uint8_t> known) {
   return level;
 }
 
-// The weighted mean of the known values below each node; its weight is the largest of theirs. Validity is meant
-// unweighted.
+// The weighted mean of the known values below each node, with the largest of their weights. Validity is averaged
+// without weights.
 Level pull(const Level& fine) {
   Level coarse((fine.nodes + Vec3i::filled(1)) / Vec3i::filled(2));
   std::vector<float> totals(coarse.values.size(), 0.0f);
@@ -74,7 +74,8 @@ Level pull(const Level& fine) {
   return coarse;
 }
 
-// The two coarse nodes round a fine one on an axis: its parent has 3/4, the parent's neighbour on the child's side 1/4.
+// The two coarse nodes around a fine one on an axis: its parent, weighted by 3/4, and the parent's neighbour on the
+// child's side, by 1/4.
 struct Parents {
   int near, far;
 };
@@ -84,7 +85,7 @@ Parents parents(int fine, int coarse_nodes) {
   return {near, std::clamp(fine % 2 == 0 ? near - 1 : near + 1, 0, coarse_nodes - 1)};
 }
 
-// Gives the unknown nodes the trilinear interpolation of a coarser level that is known everywhere.
+// Interpolates unknown nodes trilinearly from the coarser level, which is known everywhere.
 void push(const Level& coarse, Level& fine) {
   for_each_node(fine.nodes, [&](int x, int y, int z) {
     const size_t to = fine.index(x, y, z);
@@ -105,7 +106,7 @@ void push(const Level& coarse, Level& fine) {
   });
 }
 
-// Moves the filled values to the mean of themselves and their six neighbours, half and half.
+// Replaces each filled value by the mean of itself and the average of its six neighbours.
 void smooth(Level& level) {
   const std::vector<Value> before = level.values;
   for_each_node(level.nodes, [&](int x, int y, int z) {

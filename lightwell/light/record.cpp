@@ -42,7 +42,7 @@ int8_t encode_share(float value, float bound) {
 uint32_t encode_rgb9e5(const Vec3f& rgb) {
   const Vec3f value{{representable(rgb[0]), representable(rgb[1]), representable(rgb[2])}};
   const float largest = max_component(value);
-  // The exponent field of a float gives the largest number's power of two; its mantissa is to have nine bits.
+  // The exponent field of a float gives the power of two of the largest number; its mantissa gets nine bits.
   const int power = static_cast<int>(std::bit_cast<uint32_t>(largest) >> 23) - 127;
   int exponent = std::clamp(power + 1 - 9 + exponent_bias, 0, largest_exponent);
   if (mantissa(largest, exponent) > mantissa_limit) exponent++;

@@ -9,15 +9,15 @@
 
 namespace lightwell {
 
-/// Three non-negative numbers below 65408 in 32 bits (RGB9E5 of OpenGL's EXT_texture_shared_exponent): 9 bits of
-/// mantissa each from the lowest bit on, then a shared exponent. Each is rounded to the nearest multiple of the largest
-/// one's step; what is negative or not a number becomes 0, what is too large the largest number.
+/// Three numbers from 0 to 65408 in 32 bits (RGB9E5 of OpenGL's EXT_texture_shared_exponent): mantissas of 9 bits each
+/// from the lowest bit on, then a shared exponent. Each is rounded to the nearest multiple of the largest one's step;
+/// negative numbers and NaN become 0, larger ones 65408.
 uint32_t encode_rgb9e5(const Vec3f& rgb);
 Vec3f decode_rgb9e5(uint32_t bits);
 
-/// The record `moments` of one node: 33 bytes, six RGB9E5 for E (+x, -x, +y, -y, +z, -z) and nine signed bytes for S
-/// (red, green, blue of xy, then xz, yz) in units of 1/127 of (M_a + M_b)/2, which S never exceeds. An invalid node has
-/// -128 in its first signed byte, and 0 for the red S_xy of its fill.
+/// The record of one node, 33 bytes: six RGB9E5 for E (+x, -x, +y, -y, +z, -z) and nine signed bytes for S (red, green,
+/// blue of xy, then xz, yz) in units of 1/127 of (M_a + M_b)/2, which S never exceeds. An invalid node has -128 in its
+/// first signed byte, so the red S_xy of its fill is lost and reads as 0.
 struct MomentsRecord {
   std::array<uint32_t, 6> irradiance{};
   std::array<int8_t, 9> mixed{};
@@ -32,15 +32,14 @@ struct MomentsRecord {
   static MomentsRecord read(ByteReader& reader);
 };
 
-/// The record nearest to the moments of a node. The moments are expected in a unit that keeps the grid's E below 2^16:
-/// see light_scale.
+/// The nearest record to the moments of a node, which must be scaled so that E stays below 2^16: see light_scale.
 MomentsRecord encode_record(const Moments& moments, bool valid);
 
-/// The moments of a record. Any bits give finite moments; a decoded record encodes to itself.
+/// The moments of a record, finite for any bits. Encoding them again gives back a record made by encode_record.
 Moments decode_record(const MomentsRecord& record);
 
-/// The power of two that brings the largest E of the grid's nodes into (2^9, 2^10], within [2^-11, 2^15]: the unit of
-/// records and of the GPU's half floats. 1 for a dark grid.
+/// The power of two that brings the largest E of the grid into (2^9, 2^10], clamped to [2^-11, 2^15]. Records and the
+/// GPU's half floats are multiplied by it. 1 for a dark grid.
 float light_scale(const LightGrid& grid);
 
 }  // namespace lightwell

@@ -86,7 +86,7 @@ Result<void> LightDecoder::append(Bytes payload) {
   return {};
 }
 
-// The record becomes light in the grid. 1 / scale is exact.
+// Writes the decoded record of a node to the grid. 1 / scale is exact, since the scale is a power of two.
 void LightDecoder::publish(size_t node) {
   grid_.moments[node] = decode_record(records_[node]) * (1 / layout_.scale);
   grid_.valid[node] = records_[node].valid();

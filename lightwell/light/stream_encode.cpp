@@ -8,8 +8,7 @@
 namespace lightwell {
 namespace {
 
-// Sums of squares of E over the valid nodes of a bundle, in units of 2^-24: of the values and of the expectation's
-// errors.
+// Sums over the valid nodes of a bundle of the squares of E, and of the errors of its expectation, E in units of 2^-24.
 struct Squares {
   double value = 0;
   double error = 0;
@@ -27,8 +26,8 @@ struct Squares {
   }
 };
 
-// A bundle is a random sample of what was missing before it: how badly its nodes were expected tells the error that
-// remained. Never more than after the bundle before.
+// Estimates the error that remains after each bundle. The next bundle is a random sample of the missing nodes, so the
+// prediction errors of its nodes stand for those of all. Errors never increase.
 void estimate_errors(std::vector<LightBundle>& bundles, const std::vector<Squares>& squares) {
   double value = 0, missing = 0;
   for (const Squares& s : squares) value += s.value;
@@ -59,7 +58,7 @@ LightLayout layout_of(const LightGrid& grid, const LightStreamOptions& options) 
   return layout;
 }
 
-// Writes the bundles one after another: each node is expected from those that came before it.
+// Encodes the bundles in order; each node is predicted from those before it.
 class BundleEncoder {
  public:
   BundleEncoder(const LightGrid& grid, const LightLayout& layout)

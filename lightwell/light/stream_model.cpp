@@ -18,7 +18,7 @@ bool is_corner(const GridShape& shape, const Vec3i& n) {
   return true;
 }
 
-// The nodes of one slice but the corners, shuffled (Fisher and Yates).
+// The nodes of a slice except the corners of the grid, shuffled (Fisher and Yates).
 std::vector<uint32_t> shuffled_slice(const GridShape& shape, int axis, int slice, uint64_t seed) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   std::vector<uint32_t> places;
@@ -91,7 +91,7 @@ KnownNeighbours RecordField::neighbours(size_t node) const {
     Vec3i n;
     for (n[2] = lo[2]; n[2] <= hi[2]; n[2]++) {
       for (n[1] = lo[1]; n[1] <= hi[1]; n[1]++) {
-        // Inside the cube only its two faces across x belong to the shell.
+        // Of a row inside the cube, only the two ends belong to the shell.
         const bool inside = std::max(std::abs(n[1] - center[1]), std::abs(n[2] - center[2])) < radius;
         const int step = inside ? 2 * radius : 1;
         for (n[0] = inside ? center[0] - radius : lo[0]; n[0] <= hi[0]; n[0] += step) {

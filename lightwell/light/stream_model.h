@@ -14,32 +14,31 @@
 
 namespace lightwell {
 
-// Encoder and decoder of a light stream share the order of the nodes, their expectation from what is known, and the
-// contexts of the coder: integers only, so that native and WebAssembly agree to the bit.
+// The parts that encoder and decoder of a light stream share: the order of the nodes, their expectation from known
+// nodes, and the contexts of the coder. Integers only, so that native and WebAssembly builds agree to the bit.
 
-/// The order in which nodes arrive after the corners. It follows from the seed, so that no position is ever sent.
+/// The order of the nodes after the corners. It follows from the seed, so that no positions are sent.
 struct LightOrder {
   std::vector<uint32_t> nodes;  ///< every node but the eight corners
   std::vector<uint32_t> ends;   ///< bundle k ends before nodes[ends[k]]
 };
 
-/// The stratified order of Pacanowski et al., "Efficient Streaming of 3D Scenes with Complex Geometry and Complex
-/// Lighting", Web3D 2008, its streaming of lighting: the grid is cut into slices across its longest axis (the first of
-/// several); every bundle holds nodes_per_slice nodes of each slice, as long as it has any left, at places drawn
-/// without replacement from Random(seed, slice).
+/// The stratified order of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex Geometry and
+/// Complex Lighting", Web3D 2008): the grid is cut into slices across its longest axis (the first of several), and
+/// every bundle holds nodes_per_slice nodes of each slice, or those that are left, at places drawn without replacement
+/// from Random(seed, slice).
 LightOrder light_order(const GridShape& shape, uint64_t seed, int nodes_per_slice);
 
 /// The eight corner nodes of a grid, x fastest.
 std::array<size_t, 8> corner_nodes(const GridShape& shape);
 
-/// What a node's record is expected to be: E in units of 2^-24 (a mantissa times 2 to the exponent), S as in the
-/// record.
+/// The record predicted for a node: E in units of 2^-24 (a mantissa times 2 to the exponent), S as in the record.
 struct RecordExpectation {
   std::array<std::array<int64_t, 3>, 6> irradiance{};
   std::array<int, 9> mixed{};
 };
 
-/// The known nodes nearest to a place, each with an integer weight falling with the fourth power of the distance.
+/// The known nodes nearest to a node, with integer weights that fall with the fourth power of the distance.
 struct KnownNeighbours {
   struct Neighbour {
     uint32_t node;
@@ -62,9 +61,9 @@ class RecordField {
   std::span<const uint8_t> known() const { return known_; }
   const MomentsRecord& operator[](size_t node) const { return records_[node]; }
 
-  /// The known nodes of the smallest cube shell round a node that holds any. There must be one.
+  /// The known nodes in the smallest cube shell around a node that contains any, at most 32. Some node must be known.
   KnownNeighbours neighbours(size_t node) const;
-  /// The weighted mean of the neighbours that are valid (or invalid) as asked; of all when there are none.
+  /// The weighted mean of the neighbours whose validity is `valid`, or of all when there are none.
   RecordExpectation expect(const KnownNeighbours& neighbours, bool valid) const;
 
  private:
@@ -82,15 +81,15 @@ struct SharedExponent {
   uint32_t bits() const;
 };
 
-/// The adaptive contexts of a light stream. One function describes the code for both directions: `coder` is a
-/// ModelWriter or a ModelReader (base/model_coder.h).
+/// The adaptive contexts of a light stream. code() both encodes and decodes: `coder` is a ModelWriter or a ModelReader
+/// (base/model_coder.h).
 class RecordCoder {
  public:
   template <typename Coder>
   void code(Coder& coder, MomentsRecord& record, const RecordField& field, size_t node);
 
  private:
-  // The size of a node's recent residuals, as a context: noise comes in patches.
+  // The running magnitude of a node's residuals, used as a context since noise comes in patches.
   struct Recent {
     int magnitude = 8;
     size_t context() const { return std::min<size_t>(std::bit_width(static_cast<unsigned>(magnitude)), 7); }
@@ -132,7 +131,7 @@ void RecordCoder::code(Coder& coder, MomentsRecord& record, const RecordField& f
   }
 }
 
-// Green first; of its residual, red and blue are expected to have the same share of their own value.
+// Codes green first, then predicts that red and blue deviate from their expectation in proportion to green.
 template <typename Coder>
 uint32_t RecordCoder::code_irradiance(Coder& coder, uint32_t bits, const std::array<int64_t, 3>& expected,
                                       size_t direction, Recent& recent) {

@@ -5,12 +5,11 @@
 
 namespace lightwell {
 
-/// Where the arrays of a coarsest level lie in the opening, in bytes from the start of the BIN chunk's data: they are
-/// ordinary glTF accessors, tightly packed. Stands behind the MeshLayout in a mesh stream's parameters
-/// (docs/format.md).
+/// The places of a coarsest level's arrays in the opening, in bytes from the start of the BIN chunk's data; the arrays
+/// are ordinary glTF accessors, tightly packed. Follows the MeshLayout in a mesh stream's parameters (docs/format.md).
 struct BasePlaces {
   uint32_t positions = 0;               ///< 12 bytes a vertex
-  uint32_t normals = 0;                 ///< 12 bytes a vertex; 0 when absent, as are the next ones
+  uint32_t normals = 0;                 ///< 12 bytes a vertex; 0 when absent, like the next ones
   std::array<uint32_t, 2> texcoords{};  ///< 8 bytes a vertex
   uint32_t colors = 0;                  ///< 8 bytes a vertex
   uint32_t indices = 0;
@@ -38,7 +37,7 @@ struct BaseArrays {
 
   MeshArrays view() const { return {positions, normals, {texcoords[0], texcoords[1]}, colors, indices}; }
 
-  /// Reads the arrays that the layout asks for from the BIN chunk's data. Fails when a place lies outside of it.
+  /// Reads the arrays that the layout asks for from the BIN chunk's data. Fails when an array lies outside it.
   static Result<BaseArrays> read(const MeshLayout& layout, const BasePlaces& places, Bytes bin);
 };
 

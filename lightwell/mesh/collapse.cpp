@@ -9,12 +9,12 @@
 namespace lightwell {
 namespace {
 
-// A round that removes less than one point in so many is the last: it bounds the number of passes that a decoder makes.
+// A round that removes less than one point in so many is the last, which bounds the number of a decoder's passes.
 constexpr size_t least_yield = 128;
 // Share of the points, cheapest first, that a round considers. About half of them are independent of each other.
 constexpr double considered = 0.5;
 
-// Runs the rounds over the state of the mesh.
+// Simplifies a mesh round by round.
 class Simplifier {
  public:
   Simplifier(const QuantizedMesh& mesh, const Points& points)
@@ -46,7 +46,7 @@ class Simplifier {
     const float error_before = rounds_.empty() ? 0 : rounds_.back().error;
     rounds_.emplace_back();
     squared_errors_ = 0;
-    // A key may be a lower bound only. When too few collapses were as cheap as they seemed, look again.
+    // A key may be only a lower bound. If too few collapses were as cheap as their keys, sweep again.
     bool corrected = true;
     while (corrected && rounds_.back().removed.size() * least_yield < live_.size()) corrected = sweep(threshold());
     if (rounds_.back().removed.empty())
@@ -70,7 +70,7 @@ class Simplifier {
     return *middle;
   }
 
-  // Collapses what costs at most the threshold; true when a cost turned out to be higher than it seemed.
+  // Makes the collapses that cost at most the threshold; true when the cost of one turned out to be above it.
   bool sweep(float threshold) {
     bool corrected = false;
     CollapseOrder::Round& round = rounds_.back();
@@ -91,8 +91,8 @@ class Simplifier {
     return corrected;
   }
 
-  // A point that has lost its faces shows nothing and goes for free, onto a point near it on the Morton curve. It stays
-  // while both of these have too many faces to be split.
+  // A point that has lost its faces is invisible and collapses for free, onto a neighbour on the Morton curve. It stays
+  // while both neighbours have too many faces to be split.
   CollapseState::Choice onto_neighbour_in_list(size_t i) const {
     for (const size_t j : {i - 1, i + 1})
       if (j < live_.size() && !state_.removed(live_[j]) && state_.can_be_split(live_[j])) return {live_[j], 0, 0};
@@ -105,7 +105,7 @@ class Simplifier {
   std::vector<uint32_t> live_;
   uint32_t live_vertices_ = 0;
   std::vector<CollapseOrder::Round> rounds_;
-  double squared_errors_ = 0;  // of the present round's collapses
+  double squared_errors_ = 0;  // of the current round's collapses
   std::vector<float> sorted_;
 };
 

@@ -9,16 +9,17 @@ namespace {
 
 constexpr uint32_t none = 0xffffffffu;
 
-// Weights of the planes that stand on border edges and on edges where texture or colour tears, times length squared.
+// Weights, times squared edge length, of Garland and Heckbert's perpendicular planes at border edges and, here, also at
+// edges where texture or colour tears.
 constexpr float border_weight = 3, tear_weight = 1;
-// Share of the squared edge length in the cost: among equals the short edge goes first.
+// Share of the squared edge length in the cost, so that of equal edges the shorter one goes first.
 constexpr float length_weight = 1e-3f;
-// Squared error of attributes torn as far as can be, as a share of the squared length over which they smear.
+// Squared error of attributes torn as far as possible, as a share of the squared length over which they smear.
 constexpr float tear_share = 1.0f / 16;
 // Least cosine between a face's normals before and after a collapse.
 constexpr float least_cosine = 0.2f;
 
-// Rotated so that the smallest point comes first: equal for faces that are the same but for their first corner.
+// The face rotated so that its smallest point comes first: equal for faces that differ only in their first corner.
 Face canonical(const Face& f) {
   const auto smallest = static_cast<size_t>(std::min_element(f.begin(), f.end()) - f.begin());
   return {f[smallest], f[(smallest + 1) % 3], f[(smallest + 2) % 3]};
@@ -90,8 +91,8 @@ void CollapseState::add_quadrics() {
   for (uint32_t v = 0; v < points_.count(); v++) add_edge_planes(v);
 }
 
-// Planes on the border and torn edges of v, seen from the end with fewer faces: so a fan of n faces costs n and not
-// n^2.
+// Adds the planes on the border and torn edges of v whose other end has more faces, so that a fan of n faces costs n
+// and not n^2.
 void CollapseState::add_edge_planes(uint32_t v) {
   gather(v, star_);
   for (const Spoke& spoke : star_)
@@ -135,7 +136,7 @@ bool CollapseState::torn_between(uint32_t vertex, uint32_t other) const {
   return !mesh_.colors.empty() && mesh_.colors[vertex] != mesh_.colors[other];
 }
 
-// The faces at v. Those that have vanished meanwhile are unlinked on the way.
+// Gathers the faces at v and unlinks those that have vanished meanwhile.
 void CollapseState::gather(uint32_t v, std::vector<Spoke>& star) {
   star.clear();
   for (uint32_t* link = &first_corner_[v]; *link != none;) {
@@ -209,14 +210,14 @@ CollapseState::Choice CollapseState::assess(uint32_t v, const Neighbour& u, floa
   return {u.point, u.cost + harm * std::max(weight, longest * longest), size_ * std::sqrt(deviation + harm)};
 }
 
-// A point inside a surface may go anywhere, one on a border only along it, one where borders meet nowhere.
+// A point inside a surface may collapse anywhere, one on a border only along it, and one where borders meet not at all.
 bool CollapseState::keeps_border(const Neighbour& u) const {
   const auto borders = std::count_if(ring_.begin(), ring_.end(), [](const Neighbour& n) { return n.faces != 2; });
   return borders == 0 || (borders == 2 && u.faces != 2);
 }
 
-// The link condition: v and u have no common neighbours but the far corners of their common faces; and no face of u
-// is covered by one of v's (as when a tetrahedron folds flat).
+// The link condition: v and u have no common neighbours other than the far corners of their common faces, and no face
+// of u is covered by one of v's (as when a tetrahedron folds flat).
 bool CollapseState::keeps_links(uint32_t v, uint32_t u) {
   const auto shared_corner = [&](uint32_t x) {
     return std::any_of(star_.begin(), star_.end(), [&](const Spoke& s) { return s.has(u) && s.has(x); });
@@ -251,8 +252,8 @@ bool CollapseState::keeps_orientation(uint32_t v, uint32_t u) const {
   });
 }
 
-// Finds the mate of each vertex of v at u: the one across the vanishing faces or, where there is none or two, the most
-// similar. Returns how far apart in 0 ... 1 the attributes of the worst such pair are.
+// Finds the mate at u of each vertex of v: the one across the vanishing faces or, where there is none or more than one,
+// the most similar. Returns the distance, 0 to 1, between the attributes of the worst pair found by similarity.
 float CollapseState::match_vertices(uint32_t v, uint32_t u) {
   const uint32_t first = points_.first[v], count = points_.first[v + 1] - first;
   if (count == 1 && points_.first[u + 1] - points_.first[u] == 1) {

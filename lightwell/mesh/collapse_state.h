@@ -11,7 +11,7 @@
 namespace lightwell {
 
 /// A mesh under simplification: its faces, the faces at each point, each point's quadric, and what a collapse costs.
-/// Costs are in units of the longest side of the bounding box; errors in the mesh's own.
+/// Costs take the longest side of the bounding box as the unit of length; errors are in the mesh's own units.
 class CollapseState {
  public:
   CollapseState(const QuantizedMesh& mesh, const Points& points);
@@ -22,21 +22,21 @@ class CollapseState {
     float error = 0;
   };
 
-  /// Unlocks all points. Fans are measured against what they are now: a pass may undo the round's collapses in any
-  /// order.
+  /// Unlocks all points and begins to bound their fans by the current sizes; faces that vanish during the round are not
+  /// subtracted, since a pass may undo the round's collapses in any order.
   void begin_round(std::span<const uint32_t> live);
   bool locked(uint32_t v) const { return locked_in_[v] == round_ || removed(v); }
   bool removed(uint32_t v) const { return order_.target[v] != v; }
   bool isolated(uint32_t v) const { return fan_[v] == 0; }
-  /// Whether a collapse onto v that brings no faces can be undone: its fan is not above max_fan.
+  /// Whether a collapse onto v that adds no faces can be undone: the fan of v is at most max_fan.
   bool can_be_split(uint32_t v) const { return fan_bound_[v] <= max_fan; }
 
-  /// A lower bound of the cost of the cheapest collapse of v; 0 when it is isolated.
+  /// A lower bound on the cost of the cheapest collapse of v; 0 when it is isolated.
   float least_cost(uint32_t v);
-  /// The cheapest collapse of v, which is not isolated. Infinite when each would make a fan above max_fan or
-  /// remove the last face.
+  /// The cheapest collapse of v, which must not be isolated. The cost is infinite when every collapse would make a fan
+  /// above max_fan or remove the last face.
   Choice choose(uint32_t v);
-  /// Collapses v onto u and locks the points whose faces changed; returns them.
+  /// Collapses v onto u; locks and returns the points whose faces changed.
   std::span<const uint32_t> collapse(uint32_t v, uint32_t u);
 
   CollapseOrder release(std::vector<CollapseOrder::Round> rounds);
@@ -44,12 +44,12 @@ class CollapseState {
  private:
   struct Corners {
     Face points, vertices;
-    std::array<uint32_t, 3> next;  // corner of the same point; a corner is 3 * face + place
+    std::array<uint32_t, 3> next;  // next corner of the same point; a corner is 3 * face + place
   };
   struct Neighbour {
     uint32_t point = 0;
-    uint32_t faces = 0;  // shared with the point in question
-    float cost = 0;      // of the quadric alone
+    uint32_t faces = 0;  // shared with the point being examined
+    float cost = 0;      // of quadric and edge length alone
   };
 
   void link_faces(const QuantizedMesh& mesh);
@@ -71,7 +71,7 @@ class CollapseState {
 
   const QuantizedMesh& mesh_;
   const Points& points_;
-  float size_ = 0;  // of the longest side, in the mesh's units
+  float size_ = 0;  // the longest side, in the mesh's units
   std::vector<Vec3f> position_;
   std::vector<Quadric> quadric_;
   std::vector<Corners> faces_;
@@ -80,11 +80,11 @@ class CollapseState {
   uint32_t live_faces_ = 0;
   CollapseOrder order_;
 
-  // Of the point in question, kept to save allocations.
+  // Scratch data of the point being examined, kept to save allocations.
   std::vector<Spoke> star_, target_star_;
   std::vector<Neighbour> ring_;
   std::vector<uint32_t> changed_;
-  std::vector<uint32_t> mates_;  // of each of its vertices: the one of the target's that takes its place
+  std::vector<uint32_t> mates_;  // of each of its vertices: the target's vertex that replaces it
 };
 
 }  // namespace lightwell

@@ -7,7 +7,7 @@
 namespace lightwell {
 namespace {
 
-/// For each vertex the first one (in the order of positions) at the same position.
+/// For each vertex, a representative of all vertices at the same position.
 std::vector<uint32_t> welded(const std::vector<Vec3f>& positions) {
   std::vector<uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -5,7 +5,7 @@
 
 namespace lightwell {
 
-/// For each face the number of the connected piece of surface it belongs to, counted from 0 in the order of their first
+/// For each face, the number of its connected piece of surface; pieces are counted from 0 in the order of their first
 /// faces. Faces are connected by corners at the same position.
 std::vector<uint32_t> connected_faces(const Mesh& mesh);
 

@@ -54,8 +54,8 @@ QuantizedMesh permuted(const QuantizedMesh& mesh, const std::vector<uint32_t>& o
   return out;
 }
 
-// The faces, renumbered, in order of appearance: those of the coarsest level, those that come with each vertex, loose
-// ones.
+// Adds the faces, renumbered, in order of appearance: those of the coarsest level, those that come with each vertex,
+// loose ones.
 void order_faces(const QuantizedMesh& mesh, const CollapseOrder& order, const std::vector<uint32_t>& number,
                  ProgressiveMesh& out) {
   const uint64_t loose_last = number.size();

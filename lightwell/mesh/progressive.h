@@ -13,13 +13,14 @@ namespace lightwell {
 
 struct SimplifyOptions {
   QuantizeOptions quantize;
-  /// Vertices that the coarsest level may have; it has fewer, by up to a third. What cannot be simplified so far stays.
+  /// The most vertices that the coarsest level may have; it has up to a third fewer. A mesh that cannot be simplified
+  /// that far keeps more.
   uint32_t base_vertices = 300;
 };
 
 /// A mesh with the order in which it collapses. Any of its levels can become the coarsest one of a progressive mesh.
 struct SimplifiedMesh {
-  /// The mesh as the first rounds leave it.
+  /// The mesh after some of the rounds.
   struct Level {
     uint32_t vertices = 0, faces = 0;
     float error = 0;  ///< distance from the final level, in the mesh's units; an estimate
@@ -29,17 +30,17 @@ struct SimplifiedMesh {
   Points points;
   CollapseOrder order;
 
-  /// Level i is what i rounds leave: the first is the whole mesh without loose faces.
+  /// Level i is the mesh after i rounds; level 0 is the whole mesh without loose faces.
   std::vector<Level> levels() const;
 };
 
-/// A mesh whose vertices are in order of refinement: those of the coarsest level, then pass by pass the ones that
-/// splits add. The level of n vertices (n not inside a point) is the final mesh with every corner replaced by its
-/// nearest ancestor below n, without the faces that then have two corners at one point. The progressive mesh of
-/// H. Hoppe ("Progressive meshes", SIGGRAPH 1996, section 3); differs from the paper: a split moves no vertex, and
-/// splits come in passes that do not depend on each other.
+/// A mesh whose vertices are in order of refinement: those of the coarsest level, then, pass by pass, those that splits
+/// add. The level of n vertices (n not inside a point) is the final mesh with every corner replaced by its nearest
+/// ancestor below n, without the faces that then have two corners at one point. This is the progressive mesh of H.
+/// Hoppe ("Progressive Meshes", SIGGRAPH 1996, section 3), except that a split moves no vertex and that splits come in
+/// passes of independent ones.
 struct ProgressiveMesh {
-  /// Splits that do not depend on each other: the points up to point_end.
+  /// Independent splits, which add the points up to point_end.
   struct Pass {
     uint32_t point_end = 0;
     float error = 0;  ///< distance of the level before this pass from the final one, in the mesh's units; an estimate
@@ -48,7 +49,7 @@ struct ProgressiveMesh {
   /// The final level. Faces are in order of appearance; the loose ones (degenerate or repeated), which take no part in
   /// the refinement, come last.
   QuantizedMesh mesh;
-  std::vector<uint32_t> parent;          ///< of each vertex: a smaller number; of one of the base: itself
+  std::vector<uint32_t> parent;          ///< of each vertex: a smaller number; itself in the base
   std::vector<uint32_t> first_of_point;  ///< the vertices of point i are first_of_point[i] up to first_of_point[i + 1]
   uint32_t base_points = 0;
   uint32_t base_faces = 0;
@@ -71,14 +72,14 @@ struct ProgressiveMesh {
 };
 
 /// Quantises the mesh and orders it by half-edge collapse. The coarsest level has a face if any face of the mesh has
-/// three different corners. Errors: a position that is not finite; cancelled by the user. The mesh's indices must be in
-/// range.
+/// three different corners. Fails when a position is not finite or beyond 1e37, or when cancelled. The mesh's indices
+/// must be in range.
 Result<SimplifiedMesh> simplify(const Mesh& mesh, const SimplifyOptions& options, Progress& progress);
 
-/// The progressive mesh whose coarsest level is what `rounds` rounds leave.
+/// The progressive mesh whose coarsest level is the mesh after `rounds` rounds.
 ProgressiveMesh refine_after(SimplifiedMesh mesh, size_t rounds);
 
-/// Both in one: the coarsest level is the last one.
+/// simplify() and refine_after() in one: the coarsest level is that after all rounds.
 Result<ProgressiveMesh> build_progressive(const Mesh& mesh, const SimplifyOptions& options, Progress& progress);
 
 }  // namespace lightwell

@@ -5,9 +5,9 @@
 
 namespace lightwell {
 
-/// The weighted sum of squared distances to planes as a function of the offset from the point that owns it (M. Garland,
-/// P. Heckbert, "Surface simplification using quadric error metrics", SIGGRAPH 1997, section 5). Differs from the
-/// paper: each quadric has its origin at its own point, where it is accurate in single precision.
+/// The weighted sum of squared distances to planes as a function of the offset from the point that owns it (M. Garland
+/// and P. Heckbert, "Surface Simplification Using Quadric Error Metrics", SIGGRAPH 1997, section 5). Unlike in the
+/// paper, each quadric has its origin at its own point, where it is accurate in single precision.
 class Quadric {
  public:
   /// Adds a plane through the owner.
@@ -27,7 +27,7 @@ class Quadric {
   /// The sum of the planes' weights.
   float weight() const { return xx_ + yy_ + zz_; }
 
-  /// Adds the quadric of another owner; t leads from that one to this.
+  /// Adds the quadric of another owner; t is the vector from that one to this.
   void add(const Quadric& other, const Vec3f& t) {
     linear_ += other.linear_ + other.times(t);
     constant_ += other.at(t);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float largest_coordinate = 1e37f;
 constexpr int least_bits = 6, default_bits = 14, most_bits = 21;
-constexpr int texcoord_exponent = -14;  // a quarter of a texel of 4096
+constexpr int texcoord_exponent = -14;  // a quarter texel of a texture of 4096 texels a side
 
 // Longest side and largest magnitude of some values.
 struct Extent {
@@ -30,7 +30,7 @@ Extent extent_of(const std::vector<Vec<float, N>>& values, const std::vector<boo
   return {max_component(hi - lo), std::max(max_component(hi), max_component(-lo))};
 }
 
-// The exponent of the lattice nearest to the wanted one on which the extent has at most 21 bits and every value is an
+// The lattice with the exponent nearest to the wanted one on which the extent has at most 21 bits and every value is an
 // exact float.
 Lattice lattice_for(int wanted, const Extent& extent) {
   int exponent = wanted;
@@ -46,7 +46,7 @@ Lattice position_lattice(const Extent& extent, const QuantizeOptions& options) {
   return lattice_for(step > 0 ? std::ilogb(step) : Lattice::min_exponent, extent);
 }
 
-// The lowest 21 bits of x with two zeros between each.
+// The lowest 21 bits of x with two zeros between neighbours.
 uint64_t spread(uint32_t x) {
   uint64_t s = x & 0x1fffff;
   s = (s | s << 32) & 0x1f00000000ffff;
@@ -56,7 +56,7 @@ uint64_t spread(uint32_t x) {
   return (s | s << 2) & 0x1249249249249249;
 }
 
-// One vertex in integers; equal tuples are one vertex. Compared by place along the Morton curve first.
+// A vertex in integers; equal tuples are one vertex. Sorted by place along the Morton curve first.
 struct Tuple {
   uint64_t morton = 0;
   Vec3i position;

@@ -19,8 +19,8 @@ struct QuantizeOptions {
 };
 
 /// A mesh in integers: positions and texcoords on lattices, normals on the octahedral grid, colours in 8 bits. Its
-/// vertices are the distinct tuples that faces use; all faces of the input are there, degenerate and repeated ones,
-/// too. Absent attributes are empty.
+/// vertices are the distinct tuples that faces use; all faces of the input are kept, also degenerate and repeated ones.
+/// Absent attributes are empty.
 struct QuantizedMesh {
   Lattice position_lattice;
   std::array<Lattice, 2> texcoord_lattices;
@@ -31,7 +31,7 @@ struct QuantizedMesh {
   std::vector<Face> faces;
 };
 
-/// Quantises a mesh whose indices are in range. The vertices come in Morton order of their positions, those of one
+/// Quantises a mesh whose indices are in range. The vertices are in Morton order of their positions, those of one
 /// position next to each other. Errors: a position that a face uses is not finite or beyond 1e37.
 Result<QuantizedMesh> quantize(const Mesh& mesh, const QuantizeOptions& options);
 

@@ -12,7 +12,7 @@ constexpr uint32_t mergeable_gap = 256;
 
 int16_t normal_channel(float x) { return static_cast<int16_t>(std::floor(x * 32767.0f + 0.5f)); }
 
-// Puts each spoke behind the one whose face shares an edge with its own; a fan with ends begins at one.
+// Orders the spokes so that each follows one whose face shares an edge with its own; an open fan begins at an end.
 void chain(std::vector<Spoke>& fan) {
   const auto begins = [&](const Spoke& s) {
     return std::none_of(fan.begin(), fan.end(), [&](const Spoke& other) { return other.b == s.a; });
@@ -96,7 +96,7 @@ void Refinement::add(const NewVertex& vertex, bool begins_point) {
   first_corner_.push_back(no_corner);
   fan_size_.push_back(0);
 
-  // The parent's list is made anew of the corners that stay.
+  // The parent's list is rebuilt from the corners that stay.
   if (!vertex.fan.empty()) {
     first_corner_[vertex.parent] = no_corner;
     fan_size_[vertex.parent] = 0;
@@ -162,7 +162,7 @@ MeshChanges Refinement::take_changes() {
   MeshChanges changes;
   changes.vertices = {reported_vertices_, vertices() - reported_vertices_};
   changes.indices = {3 * reported_faces_, 3 * (faces() - reported_faces_)};
-  // A heap sort is a quarter of std::sort's code, which counts in a page.
+  // Heap sort is a quarter of std::sort's code, whose size counts in a web page.
   std::ranges::make_heap(rewired_);
   std::ranges::sort_heap(rewired_);
   for (const uint32_t corner : rewired_) {

@@ -7,7 +7,7 @@
 
 namespace lightwell {
 
-/// The most faces that a vertex which splits may have, so that a hostile stream cannot make single splits expensive.
+/// The most faces at a vertex that splits, so that a hostile stream cannot make a single split expensive.
 inline constexpr uint32_t max_fan = 64;
 
 /// A face at a vertex: its other two corners in order, and the place of this corner in the index buffer.
@@ -17,7 +17,7 @@ struct Spoke {
   bool has(uint32_t v) const { return a == v || b == v; }
 };
 
-/// A face that comes with a new vertex: its other two corners in order. `source` is the encoder's own.
+/// A face that comes with a new vertex: its other two corners in order. Only the encoder uses `source`.
 struct NewFace {
   uint32_t a = 0, b = 0, source = 0;
 };
@@ -25,7 +25,7 @@ struct NewFace {
 /// A vertex that a split adds: some of its parent's faces move to it, others are new.
 struct NewVertex {
   uint32_t parent = 0;
-  std::vector<Spoke> fan;      ///< the parent's faces, each next to its neighbour where it can be
+  std::vector<Spoke> fan;      ///< the parent's faces, each next to its neighbour where possible
   std::vector<uint8_t> moves;  ///< of each face of the fan: whether it moves to the new vertex
   std::vector<NewFace> faces;
   Vec3i position;
@@ -34,30 +34,32 @@ struct NewVertex {
   ColorCode color{};
 };
 
-/// A mesh between its coarsest and its final level, with the faces at each vertex. Encoder and decoder keep equal ones.
+/// A mesh between its coarsest and its final level, with the faces at each vertex. Encoder and decoder keep equal
+/// copies.
 class Refinement {
  public:
-  /// The coarsest level. Errors: arrays that do not fit the layout.
+  /// Begins with the coarsest level. Fails when the arrays do not fit the layout.
   static Result<Refinement> open(const MeshLayout& layout, const MeshArrays& base);
 
   const MeshLayout& layout() const { return layout_; }
   uint32_t vertices() const { return static_cast<uint32_t>(position_buffer.size()); }
   uint32_t faces() const { return static_cast<uint32_t>(index_buffer.size() / 3); }
-  /// The vertices of a point: [first_of_point(i), first_of_point(i + 1)).
+  /// Point i has the vertices [first_of_point(i), first_of_point(i + 1)).
   uint32_t points() const { return static_cast<uint32_t>(first_of_point_.size()); }
   uint32_t first_of_point(uint32_t point) const { return point < points() ? first_of_point_[point] : vertices(); }
   uint32_t fan_size(uint32_t vertex) const { return fan_size_[vertex]; }
-  /// The faces at a vertex, ordered so that a face follows its neighbour; depends on nothing but the splits so far.
+  /// Gathers the faces at a vertex, ordered so that a face follows its neighbour. The order depends only on the splits
+  /// so far.
   void gather_fan(uint32_t vertex, std::vector<Spoke>& fan) const;
 
   Vec3i position(uint32_t vertex) const;
   Vec<int, 2> texcoord(int set, uint32_t vertex) const;
   ColorCode color(uint32_t vertex) const;
 
-  /// Adds a vertex and rewires its faces. Its parent, its fan and the other corners of its new faces must be what the
-  /// mesh has.
+  /// Adds a vertex and rewires its faces. Its parent, its fan and the other corners of its new faces must be those of
+  /// this mesh.
   void add(const NewVertex& vertex, bool begins_point);
-  /// Adds a face that no split will ever touch; add() may not follow.
+  /// Adds a face that no split will ever touch. add() must not be called after it.
   void add_loose(const Face& face);
 
   std::vector<Vec3f> position_buffer;
@@ -79,9 +81,9 @@ class Refinement {
 
   MeshLayout layout_;
   std::vector<uint32_t> first_of_point_;
-  // The corners at each vertex as a list through the index buffer's places.
+  // Linked lists of the corners at each vertex; a corner is a place in the index buffer.
   std::vector<uint32_t> first_corner_, next_corner_, fan_size_;
-  // What take_changes() has reported, and the rewired places below it since.
+  // The counts that take_changes() has reported, and the reported places that have been rewired since.
   uint32_t reported_vertices_ = 0, reported_faces_ = 0;
   std::vector<uint32_t> rewired_;
 };

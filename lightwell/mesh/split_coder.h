@@ -10,8 +10,8 @@
 
 namespace lightwell {
 
-/// The code of what a vertex split adds, predicted from a Refinement that encoder and decoder both have. The split is
-/// the one of Hoppe's progressive meshes ("Progressive Meshes", SIGGRAPH 1996, section 3.1); models learn from block to
+/// Codes what a vertex split adds, predicted from a Refinement that encoder and decoder both have. The split is that of
+/// Hoppe's progressive meshes ("Progressive Meshes", SIGGRAPH 1996, section 3.1); models keep learning from block to
 /// block. `coder` is a ModelWriter or a ModelReader (base/model_coder.h).
 class SplitCoder {
  public:
@@ -19,34 +19,35 @@ class SplitCoder {
   uint32_t count(Coder& coder, uint32_t value) {
     return coder.natural(count_, value);
   }
-  /// Whether the point at hand splits (again).
+  /// Whether the current point splits (again).
   template <typename Coder>
   bool splits(Coder& coder, uint32_t fan_size, bool again, bool value) {
     return coder.bit(splits_[again][std::min<size_t>(fan_size, 15)], value);
   }
-  /// Whether one more vertex comes with the new point, whose parent has so many.
+  /// Whether one more vertex comes with the new point; `parents` is the number of vertices of its parent point.
   template <typename Coder>
   bool one_more(Coder& coder, uint32_t parents, bool value) {
     return coder.bit(one_more_[parents > 1], value);
   }
-  /// A vertex of the present count.
+  /// The index of an existing vertex.
   template <typename Coder>
   uint32_t vertex(Coder& coder, const Refinement& mesh, uint32_t value) {
     return coder.raw(value, std::bit_width(mesh.vertices()));
   }
-  /// A new vertex whose parent is one of `parent_point`. The position is coded when it begins a point, else given.
-  /// False: the stream is none that an encoder writes.
+  /// A new vertex whose parent is one of `parent_point`. Its position is coded if it begins a point, otherwise given in
+  /// v. False if no encoder writes such a stream.
   template <typename Coder>
   bool new_vertex(Coder& coder, const Refinement& mesh, uint32_t parent_point, bool begins_point, NewVertex& v);
 
  private:
-  // A neighbour of the parent, and how many faces of the parent at it move or stay.
+  // A neighbour of the parent, and how many of their common faces move or stay (at most 2 are counted).
   struct RingVertex {
     uint32_t vertex = 0;
     uint8_t moving = 0, staying = 0;
     bool before_parent = false;  // in the new face between moving and staying ones
   };
-  // The new vertex's neighbours: their mean, mean squared distance from it and (scaled) area normal.
+  // The new vertex's neighbours: their mean, half their mean squared distance from the parent, and their (scaled) area
+  // normal.
   struct Surroundings {
     Vec<int64_t, 3> mean;
     int64_t spread = 0;
@@ -119,7 +120,7 @@ bool SplitCoder::new_vertex(Coder& coder, const Refinement& mesh, uint32_t paren
 }
 
 // The moving faces are mostly one run of the fan: the model sees the fan's size, how often moving has begun or ended,
-// and the length of the present run.
+// and the length of the current run.
 template <typename Coder>
 void SplitCoder::moves(Coder& coder, NewVertex& v) {
   size_t changes = 0, run = 0;
@@ -134,7 +135,7 @@ void SplitCoder::moves(Coder& coder, NewVertex& v) {
 }
 
 // New faces are mostly where a moving face parts from a staying one: they join the new vertex, the parent and the
-// neighbour at which those two met. Any others are listed.
+// neighbour at which those two met. If there are any others, all are listed.
 template <typename Coder>
 bool SplitCoder::faces(Coder& coder, const Refinement& mesh, NewVertex& v) {
   gather_ring(v);
@@ -172,8 +173,8 @@ bool SplitCoder::explicit_faces(Coder& coder, const Refinement& mesh, NewVertex&
   return true;
 }
 
-// The position is predicted from the new vertex's neighbours. The residual is coded in two axes across the surface and
-// the third as its height over the plane of the neighbours: a shear, hence exact in integers.
+// The position is predicted from the new vertex's neighbours. The residual is coded along two axes across the surface
+// and, on the third, as the height over the plane of the neighbours: a shear, hence exact in integers.
 template <typename Coder>
 bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundings& around, NewVertex& v) {
   const Vec3i parent = mesh.position(v.parent);
@@ -181,7 +182,7 @@ bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundin
   int up = 0;
   for (int i = 1; i < 3; i++)
     if (std::abs(around.normal[i]) > std::abs(around.normal[up])) up = i;
-  int64_t height = 0;  // of the plane where the residual stands, times normal[up]
+  int64_t height = 0;  // of the plane at the residual, times -normal[up]
   for (int i = 1; i <= 3; i++) {
     const int axis = (up + i) % 3;
     int64_t predicted = around.mean[axis] + (parent[axis] - around.mean[axis]) / 4;
@@ -195,7 +196,7 @@ bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundin
   return true;
 }
 
-// Predicted from the vertex's faces; the model knows how good predictions have been lately.
+// The normal is predicted from the vertex's faces; the model depends on how good recent predictions were.
 template <typename Coder>
 bool SplitCoder::normal(Coder& coder, const Refinement& mesh, NewVertex& v) {
   Vec<int64_t, 3> area;
@@ -270,7 +271,8 @@ inline void SplitCoder::gather_ring(const NewVertex& v) {
     }
 }
 
-// Whether implied_faces can say them: all with the parent and a neighbour of its own, one a neighbour at most.
+// Whether implied_faces can code the new faces: each has the parent and one of its neighbours, and no neighbour occurs
+// twice.
 inline bool SplitCoder::are_implied(const NewVertex& v) const {
   for (size_t i = 0; i < v.faces.size(); i++) {
     const NewFace& face = v.faces[i];
@@ -301,7 +303,7 @@ inline SplitCoder::Surroundings SplitCoder::surroundings(const Refinement& mesh,
   uint64_t largest = 0;
   for (int i = 0; i < 3; i++) largest = std::max(largest, static_cast<uint64_t>(std::abs(around.normal[i])));
   const int excess =
-      std::max(0, static_cast<int>(std::bit_width(largest)) - 34);  // so that its products with residuals fit
+      std::max(0, static_cast<int>(std::bit_width(largest)) - 34);  // so that products with residuals fit 64 bits
   around.normal = around.normal / (int64_t(1) << excess);
   return around;
 }

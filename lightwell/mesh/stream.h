@@ -17,31 +17,32 @@ namespace lightwell {
 struct ProgressiveMesh;
 
 /// The codec number of this header's format: the vertex splits of a progressive mesh (H. Hoppe, "Progressive Meshes",
-/// SIGGRAPH 1996, sections 3.1 and 3.3), ordered by the points that they split, behind a coarsest level.
+/// SIGGRAPH 1996, sections 3.1 and 3.3), ordered by the points that they split, after a coarsest level.
 inline constexpr uint8_t mesh_codec_splits = 0;
 
-/// The most vertices and faces that a byte of a payload may stand for. It bounds a decoder's memory, 64 bytes a vertex
-/// and 24 a face, by the bytes that have arrived. Encoders pad a payload that is shorter; a flat grid of squares
-/// has 2.5, scans have 0.5.
+/// The most vertices and faces that a byte of a payload may add. It bounds a decoder's memory, 64 bytes a vertex and 24
+/// a face, by the bytes that have arrived. Encoders pad shorter payloads; a flat grid of squares has 2.5, scans have
+/// 0.5.
 inline constexpr uint32_t elements_per_byte = 4;
 
-/// What a client must know of a mesh stream before its first block: the stream's parameters in docs/format.md.
+/// What a client must know about a mesh stream before its first block: the start of the stream's parameters in
+/// docs/format.md.
 struct MeshLayout {
   uint32_t vertices = 0, faces = 0;            ///< of the final level
   uint32_t base_vertices = 0, base_faces = 0;  ///< of the coarsest level
-  uint32_t loose_faces = 0;                    ///< of faces: degenerate and repeated ones, which come last
+  uint32_t loose_faces = 0;                    ///< the last of `faces`: degenerate and repeated ones
   bool has_normals = false, has_colors = false;
   std::array<bool, 2> has_texcoords{};
   Lattice positions;
   std::array<Lattice, 2> texcoords;
   float base_error = 0;  ///< distance of the coarsest level from the final one, in the mesh's units; an estimate
 
-  /// Bytes of the final level's buffers as MeshDecoder has them.
+  /// The size of MeshDecoder's buffers at the final level, bytes.
   uint64_t buffer_bytes() const;
-  /// Fails when counts or lattices are impossible, and says which. No buffer may reach 4 GiB.
+  /// Fails when a count or a lattice is impossible. No buffer may reach 4 GiB.
   Result<void> check() const;
   void write(ByteWriter& writer) const;
-  /// Reads what write() wrote and checks it. Errors: too short, an unknown flag, check().
+  /// Reads what write() wrote and checks it. Fails when it is too short, has an unknown flag or does not pass check().
   static Result<MeshLayout> read(ByteReader& reader);
 };
 
@@ -54,11 +55,11 @@ struct MeshBlock {
 
 struct EncodedMesh {
   MeshLayout layout;
-  Mesh base;  ///< the coarsest level; stored as floats, colours as 16 bits, it gives the decoder its codes back exactly
+  Mesh base;  ///< the coarsest level; stored as floats, with 16-bit colours, it gives the decoder exactly its codes
   std::vector<MeshBlock> blocks;
 };
 
-/// Writes a progressive mesh as layout, base and blocks of about `block_vertices` new vertices.
+/// Encodes a progressive mesh as layout, base and blocks of about `block_vertices` new vertices.
 EncodedMesh encode(const ProgressiveMesh& mesh, uint32_t block_vertices = 1024);
 
 using Normal16 = std::array<int16_t, 4>;
@@ -85,21 +86,21 @@ struct MeshChanges {
   std::vector<BufferRange> rewired;  ///< indices of older faces; ascending, gaps of up to 256 indices included
 };
 
-/// The decoder of a mesh stream: refines a mesh block by block in buffers that are ready for the GPU. The buffers grow
-/// with what arrives, so that a layout that lies costs nothing. After every block the faces refer to vertices that are
-/// there, so that each level can be drawn.
+/// Decodes a mesh stream: refines a mesh block by block in buffers that are ready for the GPU. The buffers grow with
+/// the bytes that arrive, so that a false layout costs nothing. After every block the faces refer to decoded vertices,
+/// so that each level can be drawn.
 class MeshDecoder {
  public:
-  /// Fills in the coarsest level. `stream_bytes` is the sum of all blocks' payloads, or more: a layout that promises
-  /// more than so many bytes can hold is an error, as is a base that does not fit the layout.
+  /// Begins with the coarsest level. `stream_bytes` is the sum of all blocks' payloads, or more: a layout that promises
+  /// more than these bytes can hold is an error, as is a base that does not fit the layout.
   static Result<MeshDecoder> open(const MeshLayout& layout, const MeshArrays& base, uint64_t stream_bytes);
 
   MeshDecoder(MeshDecoder&&) noexcept;
   MeshDecoder& operator=(MeshDecoder&&) noexcept;
   ~MeshDecoder();
 
-  /// Decodes the next block. After an error the mesh stands as the last intact split left it, drawable, and takes no
-  /// further block.
+  /// Decodes the next block. After an error the mesh stays as the last intact split left it, drawable, and further
+  /// blocks are refused.
   Result<void> append(Bytes payload);
 
   const MeshLayout& layout() const;
@@ -114,7 +115,7 @@ class MeshDecoder {
   std::span<const Color16> colors() const;
   std::span<const uint32_t> indices() const;
 
-  /// The changes since the last call; the first call reports the coarsest level, too.
+  /// The changes since the last call; the first call includes the coarsest level.
   MeshChanges take_changes();
 
  private:

@@ -9,10 +9,10 @@
 namespace lightwell {
 namespace {
 
-// The limit keeps the place of every byte in a buffer below 2^32: a vertex's position and a face take 12 bytes each.
+// Keeps the offset of every byte in a buffer below 2^32: a vertex's position and a face take 12 bytes each.
 constexpr uint32_t most_elements = 0xffffffff / 12;
-// The most visits of all passes together, for each point that there is. Every pass of an encoder but the first refines
-// at least one point in 128.
+// The most visits of all passes together, per existing point. Every pass of an encoder but the first refines at least
+// one point in 128.
 constexpr uint64_t visits_per_point = 256;
 
 tl::unexpected<Error> corrupt(std::string_view reason) { return fail("mesh block", reason); }
@@ -65,7 +65,7 @@ struct MeshDecoder::State {
   Result<void> add_point(ModelReader& reader);
   Result<void> add_vertex(ModelReader& reader, uint32_t parent_point, bool begins_point);
   Result<void> add_loose_face(ModelReader& reader);
-  /// Takes some vertices and faces from the number that the payload may still add; fails when it has fewer left.
+  /// Deducts vertices and faces from payload_elements; fails when fewer are left.
   Result<void> spend(size_t elements);
 
   Refinement mesh;
@@ -74,7 +74,7 @@ struct MeshDecoder::State {
   uint32_t left_of_pass = 0;
   bool again = false;
   bool failed = false;
-  uint64_t payload_elements = 0;  ///< vertices and faces that the present payload may still add
+  uint64_t payload_elements = 0;  ///< vertices and faces that the current payload may still add
   NewVertex vertex;
 };
 

@@ -62,7 +62,7 @@ Refinement open_base(const MeshLayout& layout, const Mesh& base, const Quantized
   return std::move(*mesh);
 }
 
-// Replays the refinement as a decoder will and writes down each step.
+// Replays the refinement as a decoder will and encodes each step.
 class Encoder {
  public:
   explicit Encoder(const ProgressiveMesh& mesh)
@@ -145,7 +145,8 @@ class Encoder {
       for (uint32_t k = 0; k < 3; k++) finals_.push_back(final_corner(face.source, k));
   }
 
-  // The k-th corner, in the final level, of a face counted from one of its corners: 3 * face + that corner.
+  // The k-th corner, in the final level, of the face of `source`, counted from the corner of `source` (3 * face +
+  // corner).
   uint32_t final_corner(uint32_t source, uint32_t k) const { return mesh_.mesh.faces[source / 3][(source + k) % 3]; }
 
   // The next face as it appears with vertex v.
@@ -187,7 +188,7 @@ class Encoder {
   size_t pass_ = 0;
   bool again_ = false;
   uint32_t next_face_;
-  std::vector<uint32_t> finals_;  // what each index of the present level becomes in the final one
+  std::vector<uint32_t> finals_;  // what each index of the current level becomes in the final one
 };
 
 }  // namespace

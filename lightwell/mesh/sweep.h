@@ -8,7 +8,7 @@
 namespace lightwell {
 
 /// The order in which each pass visits the points present: every point is followed by the children that it got in the
-/// pass before. So neighbours in the sweep stay neighbours on the surface.
+/// pass before, so that neighbours in the sweep stay neighbours on the surface.
 class Sweep {
  public:
   explicit Sweep(uint32_t base_points) : next_(base_points) { std::iota(next_.begin(), next_.end(), 0u); }
@@ -22,7 +22,7 @@ class Sweep {
     work_ += order_.size();
     next_.push_back(order_[0]);
   }
-  /// The point at hand.
+  /// The current point.
   uint32_t point() const { return order_[at_]; }
   /// Goes on to the next point; false when there is none.
   bool advance() {
@@ -30,9 +30,9 @@ class Sweep {
     next_.push_back(order_[++at_]);
     return true;
   }
-  /// The point at hand has got a child.
+  /// Adds a child of the current point.
   void add(uint32_t child) { next_.push_back(child); }
-  /// Visits of all passes so far.
+  /// The number of visits in all passes so far.
   uint64_t work() const { return work_; }
 
  private:

@@ -14,7 +14,7 @@ T with_sign_of(T magnitude, T sign) {
   return sign < 0 ? -magnitude : magnitude;
 }
 
-// The lower half of the octahedron, folded out over the corners of the square (or back: the map is its own inverse).
+// Folds the lower half of the octahedron out over the corners of the square (or back: the map is its own inverse).
 template <typename T>
 void fold(T& u, T& v, T one) {
   const T old = u;

@@ -9,9 +9,8 @@
 
 namespace lightwell {
 
-/// The numbers that are multiples of 2^exponent. One that is at most `limit` steps from zero is an exact float, so
-/// value and code are the same thing, on every machine; and meshes of one exponent share their lattice, so that no
-/// crack opens between them.
+/// The multiples of 2^exponent. Those at most `limit` steps from zero are exact floats, so that value and code are
+/// equivalent on every machine. Meshes of one exponent share their lattice, so that no crack opens between them.
 struct Lattice {
   static constexpr int32_t limit = 1 << 23;
   static constexpr int min_exponent = -100, max_exponent = 104;
@@ -36,18 +35,18 @@ struct NormalCode {
   auto operator<=>(const NormalCode&) const = default;
 };
 
-/// The code of the direction of n, the same for every length but zero; a direction on the grid gives back its code.
-/// A zero vector counts as +y.
+/// The code of the direction of n, whatever its length; a direction on the grid gives back its code. A vector that is
+/// zero or not finite counts as +y.
 NormalCode normal_code(const Vec3f& n);
 
-/// The same for a vector of integers of any size, in integers alone: it predicts normals from the faces.
+/// The same for a vector of integers of any size, in integer arithmetic only; it predicts normals from the faces.
 NormalCode normal_code(const Vec<int64_t, 3>& n);
 
 /// The unit vector of a code.
 Vec3f normal_of(NormalCode code);
 
-/// A colour in 8 bits a channel: the square roots of red, green and blue, whose steps are about those of sRGB, also in
-/// the dark, and alpha as it is.
+/// A colour in 8 bits a channel: the square roots of linear red, green and blue, whose steps are about those of sRGB
+/// even in the dark, and alpha as it is.
 using ColorCode = std::array<uint8_t, 4>;
 /// A linear colour in 65535ths.
 using Color16 = std::array<uint16_t, 4>;
@@ -55,7 +54,7 @@ using Color16 = std::array<uint16_t, 4>;
 /// The nearest code of a linear colour. Channels are clamped to [0, 1]; NaN counts as 0.
 ColorCode color_code(const Vec4f& color);
 ColorCode color_code(const Color16& color);
-/// The colour that a code stands for; it gives back its code.
+/// The colour of a code; encoding it gives the code back.
 Color16 color_value(const ColorCode& code);
 /// A colour as numbers from 0 to 1.
 inline Vec4f color_of(const Color16& c) {

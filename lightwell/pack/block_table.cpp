@@ -9,10 +9,10 @@
 namespace lightwell {
 namespace {
 
-constexpr uint32_t extents_per_page = rows_per_page + 1;  // 64 blocks and the page behind them
+constexpr uint32_t extents_per_page = rows_per_page + 1;  // 64 blocks and the page after them
 
-/// What so many blocks without a row take at least: their rows, a check for each page, a byte and a check for each
-/// block.
+/// The fewest bytes that `blocks` blocks without a row can take: a row, a byte and a check for each, and a check for
+/// each page.
 uint64_t least_bytes(uint32_t blocks) {
   const uint32_t pages = (blocks + rows_per_page - 1) / rows_per_page;
   return uint64_t(blocks) * (row_bytes + 1 + block_check_bytes) + uint64_t(pages) * block_check_bytes;
@@ -55,8 +55,8 @@ Result<void> BlockTable::add_page(Bytes payload) {
   return {};
 }
 
-/// Places the blocks of one page's rows and the page behind them. False when they do not fit into the stream with what
-/// must follow, or are the last ones and do not fill it.
+/// Places the blocks of one page's rows and the page after them. False when they and the minimum that must follow
+/// exceed the stream, or when they are the last ones and do not fill it.
 bool BlockTable::append(std::span<const BlockRow> rows) {
   uint64_t at = begins_.back();
   for (const BlockRow& row : rows) begins_.push_back(at += row.length);

@@ -10,22 +10,22 @@
 
 namespace lightwell {
 
-/// A block, or a page of the block table, as it lies in the file.
+/// The place in the file of a block or of a page of the block table.
 struct Extent {
   bool page = false;
-  uint32_t block = 0;   ///< the block, or the first block that the page has a row of
+  uint32_t block = 0;   ///< number of the block, or of the first block in the page's rows
   uint64_t begin = 0;   ///< bytes from the start of the file
-  uint32_t length = 0;  ///< in bytes, the check included
+  uint32_t length = 0;  ///< bytes, including the check
 
   uint64_t end() const { return begin + length; }
 };
 
-/// Where the blocks and table pages ("extents") of one stream lie, as far as is known: the directory's page places the
-/// first 64 blocks and the page behind them, that page the next ones, and so on.
+/// The places of a stream's blocks and table pages ("extents"), as far as known: the page in the directory places the
+/// first 64 blocks and the page after them, which places the next ones, and so on.
 class BlockTable {
  public:
-  /// Places what the entry's rows tell of; `data_begin` is the file position of the LWST chunk's data. Nothing when
-  /// that does not fit into the stream's length, or is all of the stream and does not fill it.
+  /// Places the extents of the entry's rows; `data_begin` is the file position of the LWST chunk's data. Returns
+  /// nullopt when they exceed the stream's length, or are all of the stream and do not fill it.
   static std::optional<BlockTable> place(const StreamEntry& entry, uint64_t data_begin);
 
   uint32_t blocks() const { return blocks_; }
@@ -43,8 +43,7 @@ class BlockTable {
   uint64_t begin() const { return begins_.front(); }
   uint64_t end() const { return end_; }
 
-  /// Takes the payload of the last known extent, which is a page. An error when its rows are not as docs/format.md
-  /// says.
+  /// Adds the rows of a page, given as the payload of the last known extent. Fails when they violate docs/format.md.
   Result<void> add_page(Bytes payload);
 
  private:
@@ -54,7 +53,7 @@ class BlockTable {
   uint32_t blocks_ = 0;
   uint64_t end_ = 0;
   std::vector<BlockRow> rows_;
-  std::vector<uint64_t> begins_;  ///< where extent i begins; one more entry: where the last known one ends
+  std::vector<uint64_t> begins_;  ///< where each known extent begins, then where the last one ends
 };
 
 /// Reads `count` rows (length, adds, error); empty when one breaks a limit or the bytes are too few.

@@ -7,7 +7,7 @@
 
 namespace lightwell {
 
-/// The XXH3-128 of bytes that come in pieces: what a pack's id is made of.
+/// Incremental XXH3-128, from which a pack gets its id.
 class ContentHash {
  public:
   ContentHash();

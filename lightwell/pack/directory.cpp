@@ -32,7 +32,7 @@ Result<StreamEntry> read_stream(ByteReader& reader, size_t index) {
   if (reserved != 0) return fail(name_of(index), "its reserved field is not zero");
   if (entry.blocks > max_stream_blocks) return fail(ErrorKind::limit, name_of(index), "has too many blocks");
   if (!(entry.error >= 0 && std::isfinite(entry.error)))
-    return fail(name_of(index), "its error is not a positive number");
+    return fail(name_of(index), "its error is negative or no number");
   if (parameters > max_parameter_bytes) return fail(ErrorKind::limit, name_of(index), "its parameters are too long");
   const Bytes bytes = reader.take(parameters);
   entry.parameters.assign(bytes.begin(), bytes.end());

@@ -25,7 +25,7 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
   size.file_length = header.u32();
 
   uint64_t at = glb_header_bytes;
-  for (const uint32_t wanted : {chunk_json, chunk_bin, chunk_lwst}) {
+  for (const uint32_t wanted : {glb_json_chunk, glb_bin_chunk, chunk_lwst}) {
     size.needed = at + chunk_header_bytes;
     if (size.needed > size.file_length) return fail("", no_pack);
     if (prefix.size() < size.needed) return size;
@@ -33,8 +33,8 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
     const uint32_t length = chunk.u32();
     const uint32_t type = chunk.u32();
     if (length > size.file_length - size.needed) return fail_at(at, "chunk", "reaches beyond the end of the file");
-    if (type == chunk_bin && wanted == chunk_lwst) return fail_at(at, "chunk", "BIN stands twice");
-    if (type == chunk_lwst && wanted != chunk_json) {
+    if (type == glb_bin_chunk && wanted == chunk_lwst) return fail_at(at, "chunk", "BIN stands twice");
+    if (type == chunk_lwst && wanted != glb_json_chunk) {
       if (size.needed + length != size.file_length) return fail_at(at, "LWST chunk", "does not end with the file");
       at = size.needed;
       break;

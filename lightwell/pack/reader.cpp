@@ -22,7 +22,7 @@ std::string name_of(size_t stream, const Extent& extent) {
          std::to_string(extent.block);
 }
 
-/// Reads as much of the file's beginning as its headers ask for.
+/// Reads the opening and the directory, as far as the headers say.
 Result<std::vector<uint8_t>> read_head(const FetchBytes& fetch, uint64_t file_length, OpeningSize& size) {
   std::vector<uint8_t> head;
   for (;;) {
@@ -39,7 +39,7 @@ Result<std::vector<uint8_t>> read_head(const FetchBytes& fetch, uint64_t file_le
   return head;
 }
 
-// A file that is open for reading. Reads are positional, so that threads do not move each other's place.
+// A file open for reading. Reads are positional, so that threads can share it.
 class OpenFile {
  public:
   explicit OpenFile(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
@@ -118,12 +118,12 @@ Result<PackReader> PackReader::open_file(const std::string& path) {
   return reader;
 }
 
-// Only the headers are read: a folder may hold many packs with large openings.
+// Reads only the headers, since a folder may hold many packs with large openings.
 bool is_pack(const FetchBytes& fetch) {
   const auto header = fetch(0, glb_header_bytes);
   if (!header || ByteReader(*header).u32() != glb_magic) return false;
   uint64_t at = glb_header_bytes;
-  for (const uint32_t expected : {chunk_json, chunk_bin, chunk_lwst}) {
+  for (const uint32_t expected : {glb_json_chunk, glb_bin_chunk, chunk_lwst}) {
     const auto chunk = fetch(at, chunk_header_bytes);
     if (!chunk) return false;
     ByteReader reader(*chunk);

@@ -6,8 +6,8 @@
 namespace lightwell {
 namespace {
 
-/// Reads the string that begins behind text[at - 1] == '"' and moves `at` behind its end. Escaped characters that are
-/// not ASCII become '?': no key that matters has one.
+/// Reads the string after the quote text[at - 1] and moves `at` past its closing quote. Escaped non-ASCII characters
+/// become '?', since no key that matters has one.
 std::string read_string(std::string_view text, size_t& at) {
   std::string read;
   while (at < text.size() && text[at] != '"') {
@@ -34,7 +34,7 @@ size_t skip_space(std::string_view text, size_t at) {
   return found == std::string_view::npos ? text.size() : found;
 }
 
-/// What a glTF loader fetches: buffers[i].uri and images[i].uri.
+/// Whether a glTF loader fetches this member: buffers[i].uri and images[i].uri.
 bool is_fetched(std::string_view section, std::string_view key, int depth) {
   return depth == 3 && key == "uri" && (section == "buffers" || section == "images");
 }
@@ -42,8 +42,8 @@ bool is_fetched(std::string_view section, std::string_view key, int depth) {
 }  // namespace
 
 Result<void> check_self_contained(std::string_view json) {
-  int depth = 0;        // of objects and arrays round the place; 1 in the root object
-  std::string section;  // the root object's key that the place belongs to
+  int depth = 0;        // nesting of objects and arrays; 1 in the root object
+  std::string section;  // the root object's current key
   for (size_t at = 0; at < json.size();) {
     const char c = json[at++];
     if (c == '{' || c == '[') depth++;

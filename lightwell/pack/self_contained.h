@@ -7,9 +7,9 @@
 
 namespace lightwell {
 
-/// Fails when a glTF's JSON text refers to anything outside the file: a buffer or an image has a `uri` that is not a
-/// data URI. A pack refers to nothing, and a client refuses one that does before it hands it to a glTF loader that
-/// would fetch it. It reads the text as strings and brackets, which is enough for this and needs no parser of JSON.
+/// Fails when a glTF's JSON text refers to another file, i.e. when a buffer or an image has a `uri` that is not a data
+/// URI. A client refuses such a pack before a glTF loader would fetch the file. The text is scanned as strings and
+/// brackets only, so that the client needs no JSON parser.
 Result<void> check_self_contained(std::string_view json);
 
 }  // namespace lightwell

@@ -26,13 +26,13 @@ Result<StreamEntry> entry_of(const PackStream& stream, size_t index) {
   if (stream.blocks.size() > max_stream_blocks) return wrong(ErrorKind::limit, "has too many blocks");
   if (stream.parameters.size() > max_parameter_bytes) return wrong(ErrorKind::limit, "its parameters are too long");
   if (!(stream.error >= 0 && std::isfinite(stream.error)))
-    return wrong(ErrorKind::bad_input, "its error is not a positive number");
+    return wrong(ErrorKind::bad_input, "its error is negative or no number");
   for (const PackBlock& block : stream.blocks) {
     if (block.payload.empty()) return wrong(ErrorKind::bad_input, "has an empty block");
     if (block.payload.size() > max_block_bytes - block_check_bytes)
       return wrong(ErrorKind::limit, "has a block of more than 16 MiB");
     if (!(block.error >= 0 && std::isfinite(block.error)))
-      return wrong(ErrorKind::bad_input, "a block's error is not a positive number");
+      return wrong(ErrorKind::bad_input, "a block's error is negative or no number");
   }
   StreamEntry entry;
   entry.kind = stream.kind;
@@ -44,8 +44,7 @@ Result<StreamEntry> entry_of(const PackStream& stream, size_t index) {
   return entry;
 }
 
-/// The payloads of a stream in the order of the file: its blocks, and a page of the table after each 64th while more
-/// follow.
+/// The payloads of a stream in the order of the file: its blocks, with a table page after each 64th while more follow.
 std::vector<std::vector<uint8_t>> payloads_of(PackStream stream) {
   std::vector<std::vector<uint8_t>> payloads;
   const size_t count = stream.blocks.size();
@@ -123,10 +122,10 @@ Result<std::vector<uint8_t>> PackWriter::finish(std::string json) const {
   file.u32(glb_magic);
   file.u32(2);
   file.u32(static_cast<uint32_t>(opening + chunk_length));
-  append_chunk_header(file, json.size(), chunk_json);
+  append_chunk_header(file, json.size(), glb_json_chunk);
   file.append(as_bytes(json));
   if (!bin_.empty()) {
-    append_chunk_header(file, bin_.size(), chunk_bin);
+    append_chunk_header(file, bin_.size(), glb_bin_chunk);
     file.append(bin_);
   }
   append_chunk_header(file, chunk_length, chunk_lwst);

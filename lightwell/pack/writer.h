@@ -12,32 +12,33 @@ namespace lightwell {
 struct PackBlock {
   std::vector<uint8_t> payload;  ///< not empty, without the check
   uint32_t adds = 0;             ///< vertices, nodes or bytes
-  float error = 0;               ///< what remains after it
+  float error = 0;               ///< remaining after it
 };
 
 /// A stream to be written.
 struct PackStream {
   StreamKind kind = StreamKind::light;
   uint8_t codec = 0;
-  float error = 0;  ///< of what the opening shows, before the first block
+  float error = 0;  ///< before the first block: that of what the opening shows
   std::vector<uint8_t> parameters;
   std::vector<PackBlock> blocks;
 };
 
-/// What is known of a pack before its JSON is written: its id, and where each stream will lie.
+/// The parts of a pack that are known before its JSON is written: its id, and the places of its streams.
 struct PackPlan {
   PackId id{};
   std::vector<StreamEntry> streams;  ///< in the order given; `first` counts from the start of the LWST chunk's data, so
                                      ///< it does not depend on the length of the JSON
 };
 
-/// Makes a pack in memory. In two steps, since the JSON repeats the id and the places of the streams:
+/// Makes a pack in memory, in two steps, since the JSON repeats the id:
 ///
 ///   LW_TRY(writer, PackWriter::create(bin, std::move(streams)));
 ///   LW_TRY(file, writer.finish(make_json(writer.plan())));
 class PackWriter {
  public:
-  /// `bin` is the data of the BIN chunk. Fails when a limit of docs/format.md is exceeded.
+  /// `bin` is the data of the BIN chunk. Fails when a limit of docs/format.md is exceeded, and for empty blocks and
+  /// invalid errors.
   static Result<PackWriter> create(std::vector<uint8_t> bin, std::vector<PackStream> streams);
 
   const PackPlan& plan() const { return plan_; }

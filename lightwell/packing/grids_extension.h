@@ -10,28 +10,30 @@
 
 namespace lightwell {
 
-/// LIGHTWELL_light_grids of docs/format.md: the grids of a pack, each carried by a light stream.
+/// The LIGHTWELL_light_grids extension (docs/format.md): the light grids of a pack, each carried by a light stream.
 inline constexpr const char* grids_extension = "LIGHTWELL_light_grids";
 
-/// What the JSON says of a grid.
+/// A light grid as the JSON describes it.
 struct GridDescription {
   uint32_t stream = 0;
   GridShape shape;
-  uint32_t codec = 0;  ///< of the stream
+  uint32_t codec = 0;  ///< of that stream
   float normal_offset = 0;
-  float estimated_error = 0;  ///< share of the root mean square irradiance
-  int priority = 0;           ///< where grids overlap, the one of greater priority is looked up
+  float estimated_error = 0;  ///< RMS error as a fraction of the RMS irradiance
+  int priority = 0;           ///< where grids of the same contents overlap, the highest priority is looked up
   GridContents contains;
+
+  bool operator==(const GridDescription&) const = default;
 };
 
-/// The extension's JSON.
+/// The grids as the extension's JSON.
 Json to_json(std::span<const GridDescription> grids);
 
-/// Reads the extension from the JSON of a pack. Any JSON gives grids or an error that names the element; whether the
-/// streams say the same is for verify_json.
+/// Reads the extension from a pack's JSON. Invalid input yields an error naming the element. verify_json checks that
+/// the streams agree.
 Result<std::vector<GridDescription>> read_grids(const Json& json);
 
-/// What any of the grids holds.
+/// The union of the contents of all grids.
 GridContents contents_of(std::span<const GridDescription> grids);
 
 }  // namespace lightwell

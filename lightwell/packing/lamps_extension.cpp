@@ -30,7 +30,7 @@ std::optional<Kind> kind_of(std::string_view name) {
   return std::nullopt;
 }
 
-// What lamps of a kind have.
+// Which fields a lamp of each kind has.
 bool has_center(Kind kind) { return kind != Kind::sun; }
 bool has_normal(Kind kind) { return kind != Kind::point && kind != Kind::sphere; }
 bool is_surface(Kind kind) { return kind == Kind::rectangle || kind == Kind::sphere; }

@@ -9,17 +9,17 @@
 
 namespace lightwell {
 
-/// LIGHTWELL_lamps of docs/format.md: the lamps that a client lights by itself, the strongest first.
+/// The LIGHTWELL_lamps extension (docs/format.md): the lamps whose direct light the client computes, strongest first.
 inline constexpr const char* lamps_extension = "LIGHTWELL_lamps";
 
-/// The most lamps that a pack may list.
+/// Maximum number of lamps in a pack.
 inline constexpr size_t most_client_lamps = 16;
 
-/// The extension's JSON. What a lamp's kind has no use for, and `power`, is left out.
+/// The lamps as the extension's JSON, without `power` and the fields that do not apply to a lamp's kind.
 Json to_json(std::span<const ClientLamp> lamps);
 
-/// Reads the extension from the JSON of a pack. Any JSON gives lamps or an error that names the element. What a lamp's
-/// kind has no use for, and `power`, is as in a new ClientLamp.
+/// Reads the extension from a pack's JSON. Invalid input yields an error naming the element. `power`, and the fields
+/// that do not apply to a lamp's kind, keep their defaults.
 Result<std::vector<ClientLamp>> read_lamps(const Json& json);
 
 }  // namespace lightwell

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int32_t most = std::numeric_limits<int32_t>::max();
 
-// Whether a number of JSON, a double, is finite as a float as well.
+// Whether a JSON number, a double, is also finite as a float.
 bool fits_float(const Json& value) {
   return value.is_number() && std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
 }
@@ -19,7 +19,7 @@ bool fits_whole(const Json& value) {
   return number >= 0 && number <= most;
 }
 
-// Reads an array of three numbers of which each passes `fits`; false when there is none.
+// Reads an array of three numbers that all pass `fits`; returns false for anything else.
 template <typename T, typename Fits>
 bool read_three(const Json& value, const Fits& fits, Vec<T, 3>& three) {
   if (!value.is_array() || value.size() != 3) return false;

@@ -8,22 +8,24 @@
 
 namespace lightwell {
 
-/// LIGHTWELL_progressive_mesh of docs/format.md: a stream refines a primitive.
+/// The LIGHTWELL_progressive_mesh extension (docs/format.md): names the stream that refines a primitive.
 inline constexpr const char* mesh_extension = "LIGHTWELL_progressive_mesh";
 
 /// A primitive that a stream refines.
 struct RefinedPrimitive {
   uint32_t stream = 0;
   uint32_t vertices = 0, faces = 0;  ///< of the final level
-  Box3f bounds;                      ///< of the input
+  Box3f bounds;                      ///< of the input mesh
   float error = 0;                   ///< of the coarsest level, in the mesh's own units
-  size_t mesh = 0, primitive = 0;    ///< where it stands: meshes[mesh].primitives[primitive]
+  size_t mesh = 0, primitive = 0;    ///< its place in the JSON: meshes[mesh].primitives[primitive]
+
+  bool operator==(const RefinedPrimitive&) const = default;
 };
 
-/// The extension's JSON, for the primitive where it stands.
+/// The extension's JSON, to be stored in that primitive.
 Json to_json(const RefinedPrimitive& refined);
 
-/// Reads the extension from all primitives of a pack's JSON. Any JSON gives a list or an error that names the element.
+/// Reads the extension from all primitives of a pack's JSON. Invalid input yields an error naming the element.
 Result<std::vector<RefinedPrimitive>> read_refined_primitives(const Json& json);
 
 }  // namespace lightwell

@@ -2,6 +2,7 @@
 #include "lightwell/packing/opened_pack.h"
 
 #include "lightwell/pack/opening.h"
+#include "lightwell/pack/self_contained.h"
 #include "lightwell/packing/lamps_extension.h"
 
 namespace lightwell {
@@ -24,6 +25,8 @@ Bytes OpenedPack::bin() const { return glb_chunks(reader_.opening()).bin; }
 
 Result<void> OpenedPack::read_json() {
   const Bytes opening = reader_.opening(), text = glb_chunks(opening).json;
+  // Else a reader of the document would take in files beside whatever folder it runs in.
+  LW_CHECK(check_self_contained({reinterpret_cast<const char*>(text.data()), text.size()}));
   LW_TRY(json, parse_json(text, static_cast<uint64_t>(text.data() - opening.data())));
   json_ = std::move(json);
   LW_TRY(identity, read_identity(json_));

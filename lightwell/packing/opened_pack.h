@@ -13,13 +13,14 @@
 
 namespace lightwell {
 
-/// A pack that is opened and whose JSON is parsed, once for all who ask. The extensions are read: every stream that
-/// they name exists and is of the kind. Whether they repeat rightly what the streams say is for verify_pack.
+/// An opened pack with its JSON parsed and its extensions read. Every stream that an extension names exists and is of
+/// the right kind; verify_pack checks that extensions and streams agree.
 class OpenedPack {
  public:
-  /// Fails when the JSON is damaged or an extension cannot be read; the error names the element.
+  /// Fails when the JSON is damaged or an extension is invalid or names a stream of the wrong kind; the error names the
+  /// element.
   static Result<OpenedPack> open(PackReader reader);
-  /// The same of a file; errors name it.
+  /// The same for a file; errors name it.
   static Result<OpenedPack> open_file(const std::string& path);
 
   const PackReader& reader() const { return reader_; }
@@ -30,7 +31,7 @@ class OpenedPack {
 
   const PackIdentity& identity() const { return identity_; }
   const std::vector<GridDescription>& grids() const { return grids_; }
-  /// The lamps that a client lights by itself.
+  /// The lamps whose direct light the client computes.
   const std::vector<ClientLamp>& lamps() const { return lamps_; }
   const std::vector<RefinedPrimitive>& primitives() const { return primitives_; }
   const std::vector<RefinedTexture>& textures() const { return textures_; }

@@ -9,7 +9,7 @@
 namespace lightwell {
 namespace {
 
-// What a primitive and its arrays cost in the JSON, and a stream in JSON and directory; measured on scenes of up to a
+// Bytes of a primitive and its arrays in the JSON, and of a stream in JSON and directory; measured on scenes of up to a
 // hundred of them.
 constexpr uint64_t primitive_bytes = 400, stream_bytes = 350;
 
@@ -27,8 +27,8 @@ uint64_t opening_bytes(const Mesh& mesh, size_t vertices, size_t faces) {
   return primitive_bytes + bytes_per_vertex(mesh) * vertices + 3 * bytes_per_index * faces;
 }
 
-// Whether a form with a stream takes hardly less than the whole mesh. Each stream is a request, and what its blocks
-// take comes on top.
+// Whether a streamed form is hardly smaller than the whole mesh. A stream also costs a request and the bytes of its
+// blocks.
 bool saves_little(const std::vector<OpeningForm>& forms, size_t form) {
   constexpr uint64_t stream_worth_bytes = 1500;
   return forms.front().bytes <= forms[form].bytes + stream_worth_bytes;

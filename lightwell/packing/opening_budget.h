@@ -9,31 +9,32 @@
 
 namespace lightwell {
 
-/// A form in which the opening may show a mesh.
+/// A form of a mesh in the opening: the whole mesh, or a coarse level that a stream refines.
 struct OpeningForm {
-  uint64_t bytes = 0;  ///< that it takes, with what the JSON says of it
-  float error = 0;     ///< distance from the final level
+  uint64_t bytes = 0;  ///< in the opening, including its JSON
+  float error = 0;     ///< distance from the final level, metres
 };
 
-/// The forms of a mesh: itself, without a stream; then what 1, 2, ... rounds of its collapse leave, refined by a
-/// stream. `scale` is the largest factor by which the scene stretches it; errors are in metres of the scene.
+/// The forms of a mesh, finest first: the whole mesh, then the levels left by 1, 2, ... rounds of collapse, each with a
+/// stream. `scale` is the largest factor by which an instance stretches the mesh; it converts errors to metres.
 std::vector<OpeningForm> opening_forms(const Mesh& mesh, const SimplifiedMesh& simplified, float scale);
 
-/// What all refined meshes of an opening may take together.
+/// The bytes that all meshes together may take in the opening.
 struct OpeningBudget {
   uint64_t bytes = 0;
-  /// To give meshes with an error above `likeness` (metres) a smaller one there may be more bytes.
+  /// A larger budget, available only to meshes whose error exceeds `likeness` (metres).
   uint64_t bytes_for_likeness = 0;
   float likeness = 0;
 
-  /// 40 KB, which leave room for all else in a first request of 64 KB. For a likeness within a fiftieth of the scene's
-  /// size up to 1.5 KB a mesh and 256 KB in all: scenes of many parts look like nothing with less.
+  /// `bytes` is 40 KB, which leaves room for the rest of the opening in a first request of 64 KB. `likeness` is 1/50 of
+  /// `scene_size` (metres); up to it, the budget is 1.5 KB a mesh, from 40 to 256 KB, since scenes of many parts are
+  /// unrecognisable with less.
   static OpeningBudget of(size_t meshes, float scene_size);
 };
 
-/// Which of its forms, finest first, each mesh gets: all together keep to the budget unless even the coarsest do not,
-/// as those of hundreds of meshes. The bytes go, step by step, to the mesh of the largest error. Meshes of which a
-/// stream would spare hardly anything, 1500 bytes, are whole whatever the budget.
+/// Chooses a form for each mesh and returns its index in opening_forms(). Starts from the coarsest forms and repeatedly
+/// refines the mesh of the largest error while the budget allows; the coarsest forms of hundreds of meshes may exceed
+/// it. Meshes that a stream would shrink by less than about 1500 bytes are stored whole regardless of the budget.
 std::vector<size_t> share_opening(const std::vector<std::vector<OpeningForm>>& meshes, const OpeningBudget& budget);
 
 }  // namespace lightwell

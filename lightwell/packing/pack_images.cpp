@@ -13,19 +13,19 @@ namespace lightwell {
 namespace {
 
 constexpr size_t preview_budget = 8192;      // bytes, of all previews together
-constexpr size_t stream_worth_bytes = 1024;  // a file that is this close to its preview goes into the opening
+constexpr size_t stream_worth_bytes = 1024;  // a file that exceeds its preview by no more goes into the opening
 
-// They name a texture's image in a format that glTF itself does not know.
+// Extensions that give a texture's image in a format outside core glTF.
 constexpr std::array other_formats = {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"};
 
-// The longest side of a preview: half a byte a pixel is what small PNG and JPEG files take.
+// The longest side of a preview in pixels, assuming half a byte a pixel, as small PNG and JPEG files take.
 int preview_side(size_t images) {
   int side = 128;
   while (side > 8 && images * static_cast<size_t>(side * side) / 2 > preview_budget) side /= 2;
   return side;
 }
 
-// Marks the images that hold colours (sRGB); the others hold numbers.
+// Marks the images that hold sRGB colours; the others hold linear data.
 std::vector<bool> color_images(const Scene& scene) {
   std::vector<bool> color(scene.images.size(), false);
   for (const Material& material : scene.materials)
@@ -34,8 +34,8 @@ std::vector<bool> color_images(const Scene& scene) {
   return color;
 }
 
-// An extension may name a texture's image in another format; previews are PNG or JPEG, so `source` names the one that
-// was read.
+// Makes `source` name the image that was read and drops the extensions that name one in another format, since previews
+// are PNG or JPEG.
 void use_plain_sources(Document& document) {
   for (Json& texture : document.json["textures"]) {
     const int source = image_of(texture);
@@ -47,7 +47,7 @@ void use_plain_sources(Document& document) {
   for (const char* name : other_formats) forget_extension(document.json, name);
 }
 
-// What becomes of one image: the bytes that the opening holds, and the file to stream, if it is worth that.
+// The two parts of an image: the file in the opening, and the file to stream, if that is worthwhile.
 struct Shrunk {
   std::vector<uint8_t> opening;
   ImageFormat format = ImageFormat::png;

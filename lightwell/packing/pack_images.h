@@ -6,15 +6,15 @@
 
 namespace lightwell {
 
-/// An image whose file is streamed; the opening holds a small picture for it.
+/// An image whose file is streamed; the opening holds a small preview of it.
 struct StreamedImage {
-  int image = 0;  ///< of the scene
+  int image = 0;  ///< index into Scene::images
   TextureParameters parameters;
   std::vector<uint8_t> file;
 };
 
-/// Puts small pictures in place of the document's images, and gives back the files of those that are worth a stream.
-/// Afterwards the document needs no extension to find its images: `source` names a PNG or JPEG.
+/// Replaces the document's images by small previews and returns the files that are worth streaming. Afterwards no
+/// texture needs an extension to find its image: `source` names a PNG or JPEG.
 std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document);
 
 }  // namespace lightwell

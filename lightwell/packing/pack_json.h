@@ -8,7 +8,7 @@
 
 namespace lightwell {
 
-/// The streams of a pack in their order: light grids, meshes, images.
+/// The contents of the streams of a pack, which are numbered in this order: light grids, meshes, images.
 struct PackContent {
   size_t grids = 0;
   std::vector<StreamedMesh> meshes;
@@ -19,11 +19,11 @@ struct PackContent {
   size_t image_stream(size_t index) const { return grids + meshes.size() + index; }
 };
 
-/// Adds the extensions that do not depend on where streams lie: LIGHTWELL_progressive_mesh,
-/// LIGHTWELL_progressive_texture, LIGHTWELL_light_grids and LIGHTWELL_lamps (docs/format.md).
+/// Adds the extensions that do not depend on the pack's id: LIGHTWELL_progressive_mesh, LIGHTWELL_progressive_texture,
+/// LIGHTWELL_light_grids and LIGHTWELL_lamps (docs/format.md).
 void add_extensions(Document& document, const Scene& scene, const PackLight& light, const PackContent& content);
 
-/// Adds LIGHTWELL_streams: the format's version, the pack's id, what baked it and the exposure (EV).
+/// Adds LIGHTWELL_streams: format version, id, generator and exposure (EV).
 void add_pack_identity(Json& json, const PackId& id, float exposure);
 
 }  // namespace lightwell

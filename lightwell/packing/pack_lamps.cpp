@@ -9,7 +9,7 @@
 namespace lightwell {
 namespace {
 
-/// The primitive of the scene that a luminaire is a piece of; -1 when it is none.
+/// The scene primitive that a luminaire is a part of, or -1.
 int primitive_of(const LuminaireId& id, const Scene& scene) {
   for (const Instance& instance : scene.instances)
     if (instance.node == id.node &&
@@ -18,7 +18,7 @@ int primitive_of(const LuminaireId& id, const Scene& scene) {
   return -1;
 }
 
-/// The places on the lattice of the corners of the piece that a vertex belongs to.
+/// The lattice positions of all corners of the connected piece of surface that contains `vertex`.
 std::set<Vec3i> places_of_piece(const Mesh& mesh, uint32_t vertex, const Lattice& lattice) {
   const std::vector<uint32_t> pieces = connected_faces(mesh);
   const auto found = std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const Face& face) {
@@ -37,8 +37,8 @@ std::set<Vec3i> places_of_piece(const Mesh& mesh, uint32_t vertex, const Lattice
   return places;
 }
 
-/// A piece of a mesh has a vertex at the coarsest level of its stream, since a vertex collapses only into one that it
-/// shares an edge or a position with.
+/// The first vertex of the coarsest level that coincides with a corner of the piece of surface containing `vertex`.
+/// There is one, since a vertex collapses only into one that shares an edge or a position with it.
 uint32_t vertex_in_stream(const Mesh& mesh, uint32_t vertex, const EncodedMesh& encoded) {
   const Lattice& lattice = encoded.layout.positions;
   const std::set<Vec3i> places = places_of_piece(mesh, vertex, lattice);

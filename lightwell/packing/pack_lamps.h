@@ -9,8 +9,9 @@
 
 namespace lightwell {
 
-/// The lamps with the ids that their luminaires have in the pack, whose streamed meshes number their vertices anew: the
-/// least vertex of a piece of surface there is the first one that stands, on the lattice, where the piece has a corner.
+/// The lamps with the luminaire ids that are valid in the pack. Streamed meshes renumber their vertices, so the vertex
+/// of a piece of surface becomes the first one of the coarsest level that coincides, on the lattice, with a corner of
+/// the piece.
 std::vector<ClientLamp> lamps_of_pack(std::span<const ClientLamp> lamps, const Scene& scene,
                                       std::span<const StreamedMesh> streamed);
 

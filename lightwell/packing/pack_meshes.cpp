@@ -13,9 +13,9 @@
 namespace lightwell {
 namespace {
 
-// The largest factor by which an instance of each primitive stretches lengths.
+// The largest factor by which any instance stretches the lengths of each primitive.
 std::vector<float> largest_scales(const Scene& scene) {
-  constexpr double largest = 1e30;  // errors times scales stay finite
+  constexpr double largest = 1e30;  // keeps the product of error and scale finite
   std::vector<float> scales(scene.primitives.size(), 0);
   for (const Instance& instance : scene.instances) {
     const Transform& m = instance.to_scene;
@@ -26,7 +26,7 @@ std::vector<float> largest_scales(const Scene& scene) {
   return scales;
 }
 
-// Meshes are encoded side by side and report as one stage; each of them tells of its own steps to nobody.
+// Forwards cancellation but not progress, since meshes simplified in parallel report as one stage.
 class Cancellation : public Progress {
  public:
   explicit Cancellation(const Progress& user) : user_(user) {}
@@ -36,7 +36,7 @@ class Cancellation : public Progress {
   const Progress& user_;
 };
 
-// A coarser level shows nothing of a shape.
+// A level with fewer vertices shows nothing of a shape.
 constexpr uint32_t fewest_vertices = 8;
 
 // The primitives that a stream can refine.
@@ -48,7 +48,7 @@ std::vector<int> refined_primitives(const Scene& scene) {
   return refined;
 }
 
-// Counts the vertices of meshes that are worked on side by side, each of them twice: simplified, then encoded.
+// Reports the progress of meshes processed in parallel. Every vertex counts twice: when simplified and when encoded.
 class SharedCount {
  public:
   SharedCount(Progress& progress, size_t total) : progress_(progress) {
@@ -113,7 +113,7 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "meshes", "cancelled");
 
   std::vector<StreamedMesh> streamed;
-  // A mesh of degenerate faces only has no coarsest level: it stays in the opening as it is.
+  // A mesh of degenerate faces only has no coarsest level and stays whole in the opening.
   for (size_t i = 0; i < encoded.size(); i++)
     if (encoded[i] && !encoded[i]->blocks.empty() && !encoded[i]->base.faces.empty())
       streamed.push_back({refined[i], std::move(*encoded[i])});

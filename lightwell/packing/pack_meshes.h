@@ -10,12 +10,12 @@ namespace lightwell {
 
 /// A primitive whose finer levels are streamed.
 struct StreamedMesh {
-  int primitive = 0;  ///< of the scene
+  int primitive = 0;  ///< index into Scene::primitives
   EncodedMesh encoded;
 };
 
-/// Orders and encodes the meshes of a scene that the opening does not hold whole, by falling error of their coarsest
-/// level as it is seen in the scene (metres; the largest instance counts).
+/// Simplifies and encodes the meshes that the opening does not hold whole, sorted by decreasing error of their coarsest
+/// level (metres, at the largest instance). Fails when cancelled or when a position is not finite.
 Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress);
 
 }  // namespace lightwell

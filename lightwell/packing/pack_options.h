@@ -3,7 +3,7 @@
 
 namespace lightwell {
 
-/// How a pack is made.
+/// Options of make_pack.
 struct PackOptions {
   float position_error = 0;  ///< metres that a vertex may move; 0: 14 bits for the longest side of each mesh
   int threads = 0;           ///< 0: all processors

@@ -17,8 +17,8 @@ Json& primitive_json(Json& json, const Primitive& primitive) {
              [static_cast<size_t>(primitive.source_primitive)];
 }
 
-// Gives a primitive's JSON the arrays of `mesh`; material, extras and extensions stay. Collects the names of attributes
-// that meshes here do not have.
+// Replaces the arrays of a primitive by those of `mesh`; keeps material, extras and extensions. Collects the names of
+// attributes that Mesh does not support in `lost`.
 void replace_arrays(Document& document, const Primitive& primitive, const Mesh& mesh, std::set<std::string>& lost) {
   const Json arrays = DocumentBuilder(document).primitive(mesh);
   Json& json = primitive_json(document.json, primitive);
@@ -29,7 +29,8 @@ void replace_arrays(Document& document, const Primitive& primitive, const Mesh& 
   json["indices"] = arrays["indices"];
 }
 
-// The glTF of the opening: every mesh at its coarsest level in arrays of its own.
+// Replaces the arrays of every mesh that does not deform by those of the opening: the coarsest level when it is
+// streamed, else the whole mesh.
 void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed, Document& document, Report& report) {
   std::vector<const Mesh*> shown(scene.primitives.size());
   for (size_t i = 0; i < shown.size(); i++) shown[i] = &scene.primitives[i].mesh;
@@ -44,7 +45,7 @@ void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed
   if (!lost.empty()) report.warn("vertex attributes left out, not supported: " + names);
 }
 
-// Materials read only the texture coordinates that meshes here have; the first stand for others (as the import says).
+// Replaces references to texture coordinate sets that Mesh does not support by set 0, as the import does.
 void use_known_texcoords(Json& json) {
   constexpr int sets = 2;
   if (json.is_object() && index_of(json, "texCoord") >= sets) json.erase("texCoord");
@@ -52,7 +53,7 @@ void use_known_texcoords(Json& json) {
     if (part.is_structured()) use_known_texcoords(part);
 }
 
-// A scene without a name gets the one that its file has.
+// Names an unnamed scene after its file.
 void name_scene(Json& json, const std::string& name) {
   const auto shown = static_cast<size_t>(std::max(0, index_of(json, "scene")));
   if (shown >= member(json, "scenes").size()) return;
@@ -60,7 +61,7 @@ void name_scene(Json& json, const std::string& name) {
   if (text(scene, "name").empty()) scene["name"] = name;
 }
 
-// Where an accessor's first element lies in the BIN chunk.
+// The offset of an accessor's first element in the BIN chunk.
 uint32_t place_of(const Json& json, const Json& accessor_index) {
   if (!accessor_index.is_number()) return 0;
   const Json& accessor = json["accessors"][accessor_index.get<size_t>()];
@@ -90,7 +91,7 @@ Result<PackStream> light_stream(const PackGrid& grid) {
   ByteWriter parameters;
   encoded.layout.write(parameters);
   stream.parameters = parameters.release();
-  // Of eight corners nothing is known but that they may miss as much light as there is.
+  // The error of the eight corners alone is unknown; it may be as large as the light itself.
   if (!encoded.bundles.empty()) stream.error = std::max(1.0f, encoded.bundles.front().error);
   for (LightBundle& bundle : encoded.bundles)
     stream.blocks.push_back({std::move(bundle.payload), bundle.nodes, bundle.error});

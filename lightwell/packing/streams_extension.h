@@ -7,20 +7,22 @@
 
 namespace lightwell {
 
-/// LIGHTWELL_streams of docs/format.md: which pack this is.
+/// The LIGHTWELL_streams extension (docs/format.md): the identity of a pack.
 inline constexpr const char* streams_extension = "LIGHTWELL_streams";
 
 struct PackIdentity {
   uint32_t version = 0;   ///< of the format
   std::string id;         ///< 32 hexadecimal digits
   std::string generator;  ///< the program that baked it
-  float exposure = 0;     ///< EV that the baker chose
+  float exposure = 0;     ///< EV chosen by the baker
+
+  bool operator==(const PackIdentity&) const = default;
 };
 
-/// The extension's JSON.
+/// The identity as the extension's JSON.
 Json to_json(const PackIdentity& identity);
 
-/// Reads the extension from the JSON of a pack. Any JSON gives an identity or an error that names the element.
+/// Reads the extension from a pack's JSON. Invalid input yields an error naming the element.
 Result<PackIdentity> read_identity(const Json& json);
 
 }  // namespace lightwell

@@ -8,22 +8,24 @@
 
 namespace lightwell {
 
-/// LIGHTWELL_progressive_texture of docs/format.md: a stream brings a texture's whole image.
+/// The LIGHTWELL_progressive_texture extension (docs/format.md): names the stream that carries a texture's full image.
 inline constexpr const char* texture_extension = "LIGHTWELL_progressive_texture";
 
-/// A texture whose image a stream brings.
+/// A texture whose full image is streamed.
 struct RefinedTexture {
   uint32_t stream = 0;
   uint32_t width = 0, height = 0;  ///< pixels
   ImageFormat format = ImageFormat::png;
-  size_t texture = 0;   ///< where it stands: textures[texture]
-  uint32_t source = 0;  ///< that texture's image, which the opening holds small
+  size_t texture = 0;   ///< its place in the JSON: textures[texture]
+  uint32_t source = 0;  ///< the texture's image, of which the opening holds a preview
+
+  bool operator==(const RefinedTexture&) const = default;
 };
 
-/// The extension's JSON, for the texture where it stands.
+/// The extension's JSON, to be stored in that texture.
 Json to_json(const RefinedTexture& refined);
 
-/// Reads the extension from all textures of a pack's JSON. Any JSON gives a list or an error that names the element.
+/// Reads the extension from all textures of a pack's JSON. Invalid input yields an error naming the element.
 Result<std::vector<RefinedTexture>> read_refined_textures(const Json& json);
 
 }  // namespace lightwell

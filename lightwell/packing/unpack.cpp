@@ -38,7 +38,7 @@ Mesh mesh_of(const MeshBuffers& buffers) {
   return mesh;
 }
 
-// Appends a stream's blocks while wanted(block) says so.
+// Appends a stream's blocks as long as wanted(block) returns true.
 template <typename Wanted>
 Result<void> append_blocks(const PackReader& pack, size_t stream, AssetDecoder& decoder, const Wanted& wanted) {
   for (uint32_t block = 0; block < pack.directory().streams[stream].blocks && wanted(block); block++) {
@@ -89,7 +89,7 @@ Result<void> complete_images(Document& document, const PackRefinement& refinemen
   return {};
 }
 
-// Removes the LIGHTWELL_ extensions, which would be wrong of the refined document.
+// Removes the LIGHTWELL_ extensions, which do not hold for the refined document.
 void drop_extensions(Json& json) {
   constexpr std::array names = {streams_extension, grids_extension, lamps_extension, mesh_extension, texture_extension};
   const auto drop = [&](Json& object) {

@@ -12,39 +12,42 @@
 
 namespace lightwell {
 
-/// How finely meshes are wanted: the coarsest level that has at least `share` of the final faces, and an error of at
-/// most `error` (in each mesh's own units) unless that is negative.
+/// The level of unpacked meshes: the coarsest with at least `share` of the final faces and an error of at most `error`
+/// (in each mesh's own units; negative: any).
 struct MeshLevel {
   float share = 1;
   float error = -1;
 };
 
-/// The decoder of a stream that has to be of a kind (asset/codecs.h), alone in the memory that a client gives to all.
+/// Opens the decoder of a stream of the given kind (asset/codecs.h), with the whole memory budget of a client to
+/// itself.
 template <typename Kind>
 Result<std::unique_ptr<Kind>> open_asset_as(const PackReader& pack, size_t stream) {
   AssetContext context{.bin = glb_chunks(pack.opening()).bin};
   return open_asset_as<Kind>(pack.directory(), stream, context);
 }
 
-/// Where the finer levels of an opening come from, by stream.
+/// The sources of finer meshes and full images, by stream.
 struct PackRefinement {
   std::function<Result<Mesh>(size_t stream)> mesh;
-  std::function<Result<std::vector<uint8_t>>(size_t stream)> image;  ///< an image file; empty: the preview stays
+  std::function<Result<std::vector<uint8_t>>(size_t stream)> image;  ///< an image file; empty to keep the preview
 };
 
-/// Puts finer meshes and whole images in place of those of an opening, and takes its LIGHTWELL_ extensions out.
+/// Replaces the meshes and previews of an opening by finer meshes and full images, and removes its LIGHTWELL_
+/// extensions.
 Result<void> refine_document(Document& document, const PackRefinement& refinement);
 
-/// The glTF of a pack at a level, without the LIGHTWELL_ extensions: the opening with refined meshes and whole images.
+/// The glTF of a pack with meshes of the given level and full images, without LIGHTWELL_ extensions.
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report);
 
-/// How much of a light grid is wanted: the first bundles that bring at least `share` of its nodes, the others filled.
+/// The part of a light grid to unpack: the first bundles that together hold at least `share` of its nodes. The
+/// remaining nodes are filled.
 struct LightLevel {
   float share = 1;
   Fill fill = Fill::push_pull;
 };
 
-/// The light grid of a light stream at a level.
+/// The light grid of a light stream at the given level. Fails when `share` is 1 and the stream is incomplete.
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level);
 
 }  // namespace lightwell

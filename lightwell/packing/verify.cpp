@@ -9,7 +9,7 @@
 namespace lightwell {
 namespace {
 
-// Decodes a stream to its end and checks what each row promises. All streams share the memory that a client has.
+// Decodes a whole stream and compares each block with its row. All streams share a client's memory budget.
 Result<void> verify_stream(const PackReader& pack, uint32_t stream, AssetContext& context, uint64_t& blocks) {
   const std::string name = "stream " + std::to_string(stream);
   LW_TRY(decoder, open_asset(pack.directory(), stream, context));

@@ -10,12 +10,12 @@ namespace lightwell {
 
 struct Verification {
   uint64_t blocks = 0;              ///< read and decoded
-  std::vector<std::string> errors;  ///< none: the pack is right
+  std::vector<std::string> errors;  ///< empty for a valid pack
 };
 
-/// Reads every block of a pack, checks and decodes it, compares with what the directory, the block tables and the JSON
-/// say of it, and imports the scene. A pack without errors can be shown, rendered and exported by every program here,
-/// and a glTF loader that follows the JSON sees what the streams refine.
+/// Verifies a pack: checks and decodes every block, compares it with the directory, the block tables and the JSON, and
+/// imports the scene. A pack without errors can be shown, rendered and exported by all programs of this project, and a
+/// glTF loader that follows the JSON sees exactly what the streams refine.
 Verification verify_pack(const OpenedPack& pack);
 
 }  // namespace lightwell

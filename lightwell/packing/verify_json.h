@@ -5,10 +5,10 @@
 
 namespace lightwell {
 
-/// Fails when the JSON of a pack says anything else than its directory, the parameters of its streams and the BIN
-/// chunk; when a light or mesh stream is not named once, so that programs would show different things; when an element
-/// that an extension names does not exist; when the document is not in plain form (compressed, sparse or in several
-/// buffers), which other programs would read at other places than the streams; or when it refers to another file.
+/// Fails when the JSON of a pack contradicts its directory, the parameters of its streams or the BIN chunk; when a
+/// light or mesh stream is not named exactly once; when an extension names an element that does not exist; when the
+/// document is compressed, sparse or in several buffers, so that other programs would read other data than the streams
+/// refine; or when it refers to another file.
 Result<void> verify_json(const OpenedPack& pack);
 
 }  // namespace lightwell

@@ -4,23 +4,24 @@
 #include <algorithm>
 #include <optional>
 
+#include "lightwell/asset/mesh_asset.h"
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
-#include "lightwell/mesh/base_places.h"
+#include "lightwell/packing/unpack.h"
 
 namespace lightwell {
 namespace {
 
-// An array of the coarsest level, as its stream's parameters have it.
+// An array of the coarsest level, as described by the stream's parameters.
 struct BaseArray {
   Component component = Component::f32;
   int rows = 3;
   bool normalized = false;
   uint32_t count = 0;
-  uint32_t place = 0;  // in the BIN chunk
+  uint32_t place = 0;  // byte offset in the BIN chunk
 };
 
-// Whether an accessor is that array: of the type and count, in plain form, tightly packed, and at the place.
+// Whether an accessor is exactly that array: of the same type, count and place, tightly packed and not sparse.
 bool is_array(const Json& json, int accessor_index, const BaseArray& array) {
   const Json& accessor = element(member(json, "accessors"), static_cast<size_t>(accessor_index));
   const ElementType type = element_type(accessor);
@@ -34,7 +35,7 @@ bool is_array(const Json& json, int accessor_index, const BaseArray& array) {
   return number(view, "byteOffset", 0) + number(accessor, "byteOffset", 0) == array.place;
 }
 
-// The attributes of a coarsest level, and what each has to be.
+// The attributes that the coarsest level must have.
 std::vector<std::pair<std::string, BaseArray>> attributes_of(const MeshLayout& layout, const BasePlaces& places) {
   const uint32_t count = layout.base_vertices;
   std::vector<std::pair<std::string, BaseArray>> attributes = {
@@ -65,14 +66,14 @@ Result<void> verify_arrays(const Json& json, const Json& primitive, const std::s
   return {};
 }
 
-// Whether each of the bounds is within `step` of the positions' own.
+// Whether the positions lie between `lo` and `hi`, up to `step`.
 bool bound(const Vec3f& lo, const Vec3f& hi, const Box3f& positions, float step) {
   for (int i = 0; i < 3; i++)
     if (!(positions.lo[i] >= lo[i] - step && positions.hi[i] <= hi[i] + step)) return false;
   return true;
 }
 
-// A loader takes the box of a mesh from its accessor.
+// Whether the POSITION accessor states the exact bounds, from which a loader takes the box of the mesh.
 bool has_exact_bounds(const Json& json, const Json& primitive, const Box3f& positions) {
   const int index = index_of(member(primitive, "attributes"), "POSITION");
   const Json& accessor = element(member(json, "accessors"), static_cast<size_t>(index));
@@ -93,19 +94,19 @@ Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& re
   const Json& json = pack.json();
   const Json& primitive =
       element(member(element(member(json, "meshes"), refined.mesh), "primitives"), refined.primitive);
-  LW_TRY(parameters, MeshParameters::read(pack.reader().directory().streams[refined.stream].parameters));
-  const MeshLayout& layout = parameters.layout;
-  const BasePlaces& places = parameters.places;
-  LW_TRY(base, BaseArrays::read(layout, places, pack.bin()));
+  LW_TRY(mesh, open_asset_as<MeshAsset>(pack.reader(), refined.stream));
+  const MeshLayout& layout = mesh->layout();
+  const BasePlaces& places = mesh->places();
   if (refined.vertices != layout.vertices || refined.faces != layout.faces || refined.error != layout.base_error)
     return fail(name + "." + mesh_extension, "differs from what its stream says");
   if (!extension(primitive, "KHR_draco_mesh_compression").is_null()) return fail(name, "is compressed");
   if (!member(primitive, "targets").empty()) return fail(name, "deforms, which no stream can refine");
   LW_CHECK(verify_arrays(json, primitive, name, layout, places));
   Box3f positions;
-  for (const Vec3f& position : base.positions) positions.extend(position);
+  const MeshBuffers coarsest = mesh->buffers();
+  for (const Vec3f& position : coarsest.positions.first(coarsest.vertices)) positions.extend(position);
   if (!has_exact_bounds(json, primitive, positions)) return fail(name, "its bounds are not those of its positions");
-  // The bounds of the input hold for what is decoded but for the rounding to the lattice.
+  // Rounding to the lattice may move positions out of the bounds of the input by a step.
   if (!bound(refined.bounds.lo, refined.bounds.hi, positions, layout.positions.step()))
     return fail(name + "." + mesh_extension, "its bounds do not hold its coarsest level");
   return {};

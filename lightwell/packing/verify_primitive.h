@@ -5,9 +5,9 @@
 
 namespace lightwell {
 
-/// Fails when the JSON of a refined primitive says anything else than the parameters of its stream: of the final level
-/// and its error; and of the coarsest level which arrays there are, their types, counts and places in the BIN chunk,
-/// and the bounds of its positions. So a glTF loader begins with the very arrays that the stream refines.
+/// Fails when the JSON of a refined primitive contradicts the parameters of its stream: in the size of the final level,
+/// the error, or the arrays of the coarsest level (attributes, types, counts, places in the BIN chunk, bounds of the
+/// positions). A glTF loader thus starts from exactly the arrays that the stream refines.
 Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& refined);
 
 }  // namespace lightwell

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/verify_scene.h"
 
-#include "lightwell/mesh/base_places.h"
+#include "lightwell/asset/mesh_asset.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/scene/import_gltf.h"
 
@@ -14,7 +14,7 @@ Result<Scene> scene_at(const OpenedPack& pack, const MeshLevel& level) {
   return scene_from_document(std::move(document), "", report);
 }
 
-// The bounds of the input hold for what is decoded but for the rounding to the lattice.
+// Whether a mesh lies in the bounds of the input, apart from rounding to the lattice (`step`).
 bool holds(const Box3f& bounds, const Mesh& mesh, float step) {
   for (const Vec3f& p : mesh.positions)
     for (int i = 0; i < 3; i++)
@@ -22,15 +22,15 @@ bool holds(const Box3f& bounds, const Mesh& mesh, float step) {
   return true;
 }
 
-// Primitives that no node shows are not imported, and are not looked at.
+// Skips primitives that no node shows, since they are not imported.
 Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
   for (const RefinedPrimitive& refined : pack.primitives())
     for (const Primitive& primitive : scene.primitives) {
       if (primitive.source_mesh != static_cast<int>(refined.mesh) ||
           primitive.source_primitive != static_cast<int>(refined.primitive))
         continue;
-      LW_TRY(parameters, MeshParameters::read(pack.reader().directory().streams[refined.stream].parameters));
-      if (!holds(refined.bounds, primitive.mesh, parameters.layout.positions.step()))
+      LW_TRY(mesh, open_asset_as<MeshAsset>(pack.reader(), refined.stream));
+      if (!holds(refined.bounds, primitive.mesh, mesh->layout().positions.step()))
         return fail(element_name("meshes", refined.mesh) + "." + element_name("primitives", refined.primitive),
                     "the bounds in " + std::string(mesh_extension) + " do not hold its final level");
     }

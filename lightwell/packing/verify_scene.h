@@ -5,9 +5,8 @@
 
 namespace lightwell {
 
-/// Fails when the scene of a pack cannot be imported at its coarsest or at its final level, so that a program could not
-/// show it; when the final positions of a mesh lie outside of the bounds that the JSON states; or when an image is not
-/// of the size and format that its stream states.
+/// Fails when the scene of a pack cannot be imported at its coarsest or final level, when final positions of a mesh lie
+/// outside the bounds stated in the JSON, or when an image does not have the size and format stated there.
 Result<void> verify_scene(const OpenedPack& pack);
 
 }  // namespace lightwell

@@ -6,7 +6,7 @@
 namespace lightwell {
 namespace {
 
-// IEC 61966-2-1's primaries; the sums of the rows are its white.
+// The matrix from linear sRGB to XYZ (IEC 61966-2-1); the sums of its rows are the white point.
 constexpr Vec3d to_x{{0.4124564, 0.3575761, 0.1804375}};
 constexpr Vec3d to_y{{0.2126729, 0.7151522, 0.0721750}};
 constexpr Vec3d to_z{{0.0193339, 0.1191920, 0.9503041}};

@@ -10,16 +10,18 @@
 
 namespace lightwell {
 
-/// How two pictures are compared.
+/// How two pictures are compared. `lab` is the figure for quantised light in S08 (Pacanowski, Granier et al.,
+/// "Efficient Streaming of 3D Scenes with Complex Geometry and Complex Lighting", Web3D 2008): the mean difference in
+/// Lab.
 enum class Metric {
   rmse,    ///< root of the mean squared difference of linear radiance
   relmse,  ///< mean squared difference over the squared reference plus 0.01 (Rousselle et al. 2011)
   deltae,  ///< CIEDE2000 between the displayed colours (Sharma et al. 2005)
-  lab,     ///< Euclidean distance in CIE Lab in percent of the range of L (CIE76), as S08's "mean difference in Lab"
+  lab,     ///< Euclidean distance in CIE Lab (CIE76), in percent of the range of L
   flip,    ///< LDR-FLIP (Andersson et al. 2020) at 67 pixels a degree
 };
 
-/// The metric of a name ("rmse", ...), if it is one.
+/// The metric with this name ("rmse", ...), if there is one.
 std::optional<Metric> metric_of(std::string_view name);
 
 struct Comparison {
@@ -29,8 +31,8 @@ struct Comparison {
   double max = 0;
 };
 
-/// Compares `picture` with `reference`, which must have the same size. `display` says how deltae, lab and flip see
-/// them; pictures of 8 bits have been through a tone curve already.
+/// Compares `picture` with `reference`; fails when their sizes differ or they are empty. `display` is how deltae, lab
+/// and flip see them: by default without a tone curve, since 8-bit pictures have been through one already.
 Result<Comparison> compare(const Picture& picture, const Picture& reference, Metric metric,
                            const Display& display = {0, ToneCurve::none});
 

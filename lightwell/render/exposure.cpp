@@ -12,15 +12,15 @@ namespace {
 
 constexpr int width = 96, height = 72, samples = 8;
 
-/// What a white surface in mean light is shown as: a scene of common reflectances, around 0.36, gets a mean of 0.18.
+/// How a white surface in mean light is shown: a scene of common reflectances, around 0.36, gets a mean of 0.18.
 constexpr float white_surface = 0.5f;
-/// What 95 % of the picture stay below. The tone curve keeps what is beyond 1 apart a little further.
+/// The limit for 95 % of the picture. The tone curve still resolves values a little above 1.
 constexpr float brightest = 1.5f;
 
-/// What a light meter reads from a camera: one number a pixel that shows a lit surface.
+/// The readings of a light meter from a camera, one for each pixel that shows a lit surface.
 struct Readings {
   std::vector<float> incident;   ///< the radiance that a white surface would have there
-  std::vector<float> reflected;  ///< that which the surface has
+  std::vector<float> reflected;  ///< the radiance of the surface itself
 };
 
 /// Rec. 709 luminance.
@@ -51,7 +51,7 @@ Readings read_meter(const World& world, const Camera& camera, const LightField& 
   });
   Readings readings;
   for (const Vec2f& pixel : pixels) {
-    if (!(pixel[0] > 0) || !is_finite(pixel)) continue;  // nor what is not a number
+    if (!(pixel[0] > 0) || !is_finite(pixel)) continue;  // black, infinite or NaN
     readings.incident.push_back(pixel[0]);
     readings.reflected.push_back(pixel[1]);
   }

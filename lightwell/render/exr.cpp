@@ -16,7 +16,7 @@ namespace {
 
 using Memory = std::unique_ptr<void, decltype(&std::free)>;
 
-// The error of a call of tinyexr, whose message is to be freed.
+// The error of a tinyexr call; frees the message.
 tl::unexpected<Error> exr_failure(const char* message) {
   std::string reason = message ? message : "not readable";
   FreeEXRErrorMessage(message);
@@ -31,7 +31,7 @@ struct Header : EXRHeader {
   Header(const Header&) = delete;
   Header& operator=(const Header&) = delete;
 
-  // The number of the channel of this name, or of the only one.
+  // The index of the channel with this name, or of the only one.
   std::optional<size_t> channel(std::string_view wanted) const {
     for (int c = 0; c < num_channels; c++) {
       if (num_channels == 1 || channels[c].name == wanted) return static_cast<size_t>(c);
@@ -40,7 +40,7 @@ struct Header : EXRHeader {
   }
 };
 
-// Reads the header, so that the size is checked before the pixels' memory is asked for.
+// Reads the header and checks the size before memory for pixels is allocated.
 Result<void> read_header(Bytes file, Header& header) {
   EXRVersion version;
   if (ParseEXRVersionFromMemory(&version, file.data(), file.size()) != TINYEXR_SUCCESS)
@@ -66,8 +66,8 @@ int rows_of_block(int compression) {
   }
 }
 
-// That every block lies within the file: tinyexr loses memory when one does not. A block is its first row, its length
-// and so many bytes; the table of their places follows the header.
+// Checks that every block lies within the file, since tinyexr leaks memory when one does not. A block is its first row,
+// its length and that many bytes; the table of block offsets follows the header.
 Result<void> check_blocks(Bytes file, const Header& header) {
   ByteReader table(file);
   table.take(size_t(8) + header.header_len);
@@ -91,7 +91,7 @@ bool is_exr(Bytes file) {
 }
 
 Result<std::vector<uint8_t>> write_exr(const Picture& picture) {
-  // Channels stand in the order of their names.
+  // OpenEXR orders channels by name.
   std::array<std::vector<float>, 3> planes;
   for (size_t i = 0; i < picture.pixels.size(); i++) planes[2 - i % 3].push_back(picture.pixels[i]);
   std::array<float*, 3> plane_pointers{planes[0].data(), planes[1].data(), planes[2].data()};
@@ -134,7 +134,7 @@ Result<Picture> read_exr(Bytes file) {
   const char* message = nullptr;
   if (LoadEXRImageFromMemory(&pixels, &header, file.data(), file.size(), &message) != TINYEXR_SUCCESS)
     return exr_failure(message);
-  // A failed load has freed it already.
+  // A failed load has already freed it.
   const std::unique_ptr<EXRImage, decltype(&FreeEXRImage)> owner(&pixels, &FreeEXRImage);
   Picture picture{pixels.width, pixels.height, {}};
   const size_t count = static_cast<size_t>(pixels.width) * static_cast<size_t>(pixels.height);

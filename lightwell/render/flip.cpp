@@ -11,7 +11,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// A plane of numbers; places beyond its edge repeat the edge.
+// A plane of numbers; beyond its edges the edge values repeat.
 struct Plane {
   int width, height;
   std::vector<float> values;
@@ -144,7 +144,7 @@ Kernel balanced(Kernel k) {
   return k;
 }
 
-// Lengths of the gradients of edges and of points in the luminance, section 4.2.
+// Magnitudes of the edge and point features of the luminance, section 4.2.
 struct Features {
   std::vector<float> edges, points;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <array>
 
-#include "lightwell/base/assert.h"
 #include "lightwell/render/grid_integrator.h"
 #include "lightwell/render/path_integrator.h"
 
@@ -15,13 +13,6 @@ std::span<const IntegratorKind> integrators() {
       IntegratorKind{"ivg", "the light grid (an irradiance vector grid)", true, true, make_grid_integrator},
   };
   return table;
-}
-
-const IntegratorKind& find_integrator(std::string_view name) {
-  const auto table = integrators();
-  const auto found = std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.name == name; });
-  LW_ASSERT(found != table.end());
-  return *found;
 }
 
 }  // namespace lightwell

@@ -5,8 +5,8 @@
 
 namespace lightwell {
 
-/// Where light comes from: all of it, straight from its source, or after at least one reflection. A picture's total
-/// also shows what shines by itself; its other parts do not.
+/// A part of the light: all of it, only light straight from its source, or only light reflected at least once. A
+/// picture of the total also shows emissive surfaces and the environment; one of another part does not.
 enum class LightPart { total, direct, indirect };
 
 inline bool wants_direct(LightPart part) { return part != LightPart::indirect; }

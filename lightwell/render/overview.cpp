@@ -8,20 +8,21 @@
 namespace lightwell {
 namespace {
 
-constexpr int lattice = 7;        // points an axis
-constexpr int sight_lines = 256;  // from a point, to all sides
+constexpr int lattice = 7;        // points on an axis
+constexpr int sight_lines = 256;  // from a point, in all directions
 constexpr int headings = 16;
 constexpr Vec<int, 2> view_rays{{12, 9}};
 constexpr float view_aspect = 4.0f / 3;
-/// Of a point's sight lines, how many may leave the scene or end inside a solid: doors and cracks let some pass.
+/// The share of an enclosed point's sight lines that may leave the scene or end inside a solid, since doors and cracks
+/// let some pass.
 constexpr float most_strays = 0.03f;
-/// What share of its sight lines a point must have ending on fronts to be within something, be it open or not.
+/// The share of a point's sight lines that must end on fronts for it to be within something, open or not.
 constexpr float least_fronts_within = 0.75f;
-/// Of such points, how many must be enclosed before the scene is: a stage that is open to the front has enclosed
-/// corners, too. And of all points: a statue has hollows.
+/// The shares of these points and of all points that must be enclosed for the scene to be: a stage open to the front
+/// has enclosed corners, too, and a statue has hollows.
 constexpr float least_enclosed = 0.15f, least_enclosed_of_all = 0.03f;
 
-/// Points in the middles of the parts of a box.
+/// The centres of the cells into which a lattice divides a box.
 std::vector<Vec3f> lattice_points(const Box3f& box) {
   std::vector<Vec3f> points;
   for (int i = 0; i < lattice * lattice * lattice; i++) {
@@ -52,8 +53,8 @@ Camera level_camera(const Vec3f& eye, int heading) {
   return camera;
 }
 
-/// The mean of the logarithms of how far a camera's rays go; a ray that leaves the scene counts as one that sees
-/// nothing.
+/// The sum of the logarithms of the distances that a camera's rays go, each at least `nothing`; a ray that leaves the
+/// scene counts as `nothing`.
 float depth_of_view(const TraceScene& scene, const Camera& camera, float nothing) {
   Random random(0, 0);
   float sum = 0;
@@ -83,7 +84,7 @@ Camera view_from_within(const TraceScene& scene, const std::vector<Vec3f>& eyes)
   return best;
 }
 
-/// The nearest camera in front of a box that has all of it in a square picture, with a margin.
+/// The nearest camera in front of a box that shows all of it in a square picture, with a margin.
 Camera view_from_outside(const Box3f& box) {
   constexpr double margin = 1.1;
   const Vec3d back = normalized(Vec3d{{0, 0.2, 1}});

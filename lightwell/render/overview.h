@@ -6,9 +6,9 @@
 
 namespace lightwell {
 
-/// A camera for a scene that brings none. A scene that encloses its space, as a room does, is shown from within: of
-/// level views from the points of a lattice, the one whose rays go the farthest (geometric mean). Any other is shown
-/// whole from its front (+z), a little from above. The same scene always gets the same camera.
+/// A camera for a scene that has none. A scene that encloses its space, as a room does, is shown from within: of level
+/// views from the points of a lattice, the one whose rays go farthest (geometric mean). Any other is shown whole from
+/// its front (+z), a little from above. The same scene always gets the same camera.
 Camera overview_camera(const TraceScene& scene);
 
 }  // namespace lightwell

@@ -5,10 +5,10 @@
 
 namespace lightwell {
 
-/// Path tracing: the reference, right for every light up to its greatest number of bounces.
+/// Path tracing, the reference: unbiased for all light up to `max_bounces`.
 std::unique_ptr<Integrator> make_path_integrator(const World& world, const IntegratorOptions& options);
 
-/// Path tracing of the direct light alone.
+/// Path tracing of the direct light only.
 std::unique_ptr<Integrator> make_direct_integrator(const World& world, const IntegratorOptions& options);
 
 }  // namespace lightwell

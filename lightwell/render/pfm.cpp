@@ -9,7 +9,7 @@
 namespace lightwell {
 namespace {
 
-// The next word of the header, and the one white space after it.
+// Reads the next word of the header and the single white space after it.
 std::string_view word(ByteReader& reader, Bytes file) {
   const auto is_space = [](uint8_t c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
   const size_t begin = reader.position();

@@ -13,13 +13,13 @@ namespace lightwell {
 /// A picture of linear RGB radiance, first row at the top.
 using Picture = RadianceImage;
 
-/// How radiance above what a screen can show is brought into its range.
+/// How radiance beyond the range of a screen is mapped into it.
 enum class ToneCurve {
-  none,     ///< cut off at 1
+  none,     ///< clipped at 1
   neutral,  ///< Khronos PBR Neutral
 };
 
-/// From radiance to a screen: times 2^exposure, then the tone curve.
+/// The map from radiance to a screen: times 2^exposure, then the tone curve.
 struct Display {
   float exposure = 0;  ///< EV
   ToneCurve tone = ToneCurve::neutral;
@@ -28,14 +28,15 @@ struct Display {
   Vec3f operator()(const Vec3f& radiance) const;
 };
 
-/// The Khronos PBR Neutral tone curve (Khronos Group, 2024): colours below 0.8 keep their hue and, 4 % of reflection
-/// apart, their value; brighter ones are compressed and desaturated.
+/// The Khronos PBR Neutral tone curve (Khronos Group, 2024): colours below 0.8 keep their hue and, apart from 4 % for
+/// reflection, their value; brighter ones are compressed and desaturated.
 Vec3f neutral_tone(Vec3f colour);
 
 /// The picture as a screen shows it: 8-bit sRGB, three channels.
 Image displayed(const Picture& picture, const Display& display);
 
-/// Writes a picture; the name's ending says how: .png or none (as displayed), .exr or .pfm (32-bit floats as they are).
+/// Writes a picture; the extension gives the format: .png or none (as displayed), .exr or .pfm (32-bit floats,
+/// unchanged). Others are an error.
 Result<void> write_picture(const std::filesystem::path& path, const Picture& picture, const Display& display = {});
 
 /// Reads a picture, recognised by content: OpenEXR, PFM (colour or grey, either byte order), or an 8-bit image, which

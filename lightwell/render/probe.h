@@ -25,8 +25,8 @@ struct ProbeOptions {
   int threads = 0;  ///< 0: all processors
 };
 
-/// The irradiance at points, in their order; the same bytes for any number of threads. Fails when `progress` asks to
-/// stop, or when an integrator lacks the baked light that it needs.
+/// Measures the irradiance at points, in their order. The same bytes for any number of threads. Fails when `progress`
+/// is cancelled, or when an integrator lacks the baked light that it needs.
 Result<std::vector<ProbeValue>> probe(const World& world, std::span<const ProbePoint> points,
                                       const ProbeOptions& options, Progress& progress);
 

@@ -10,7 +10,7 @@
 namespace lightwell {
 namespace {
 
-/// What the light of one camera ray adds up to.
+/// Computes the pixels of a picture.
 class Renderer {
  public:
   Renderer(const World& world, const Camera& camera, const RenderOptions& options)
@@ -19,7 +19,7 @@ class Renderer {
         options_(options),
         integrator_(options.integrator->make(world, options.light)) {}
 
-  /// The mean radiance over a pixel; adds the rays that it took.
+  /// The mean radiance over a pixel; adds the number of rays traced to `rays`.
   Vec3f pixel(int x, int y, uint64_t& rays) const {
     const float width = static_cast<float>(options_.width), height = static_cast<float>(options_.height);
     Random random(options_.seed,

@@ -21,9 +21,9 @@ struct RenderStatistics {
   uint64_t rays = 0;
 };
 
-/// The picture that a camera takes, each pixel the mean over its square. The same bytes for any number of threads.
-/// Fails when `progress` asks to stop, when a size or the samples are not positive, or when an integrator lacks the
-/// baked light that it needs.
+/// Renders the picture of a camera, W/m2/sr, each pixel the mean over its square. The same bytes for any number of
+/// threads. Fails when `progress` is cancelled, when a size or the number of samples is not positive, or when an
+/// integrator lacks the baked light that it needs.
 Result<Picture> render(const World& world, const Camera& camera, const RenderOptions& options, Progress& progress,
                        RenderStatistics& statistics);
 

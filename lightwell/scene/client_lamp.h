@@ -26,6 +26,8 @@ struct ClientLamp {
   bool two_sided = false;                ///< a rectangle that shines to both sides
   float power = 0;                       ///< W, mean of the channels; what lamps are ranked by
   LuminaireId luminaire;                 ///< that it stands for
+
+  bool operator==(const ClientLamp&) const = default;
 };
 
 }  // namespace lightwell

@@ -6,7 +6,7 @@
 namespace lightwell {
 namespace {
 
-/// Of a face's emission, where it changes over the area.
+/// Samples of the emission of a face on which it varies.
 constexpr int samples = 64;
 
 }  // namespace

@@ -44,8 +44,8 @@ Vec3f EnvironmentLight::radiance(const Vec3f& direction) const {
   return map_ ? scale_ * pixel_radiance(*map_, pixel(direction)) : scale_;
 }
 
-// Radiance and density are those of the chosen pixel: found again from the direction, rounding could give a black
-// neighbour's.
+// Radiance and density are taken from the chosen pixel: looked up again from the direction, they could by rounding be
+// those of a black neighbour.
 EnvironmentLight::Sample EnvironmentLight::sample(Random& random) const {
   if (!map_) return {.direction = sample_sphere(random), .radiance = scale_, .density = 1 / whole_sphere};
   const size_t chosen = pixels_.sample(random);

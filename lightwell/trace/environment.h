@@ -8,7 +8,7 @@
 
 namespace lightwell {
 
-/// The environment as a source of light: constant, or a latitude-longitude map sampled by its radiance.
+/// The environment as a source of light: constant, or a latitude-longitude map sampled in proportion to its radiance.
 class EnvironmentLight {
  public:
   EnvironmentLight() = default;
@@ -16,7 +16,7 @@ class EnvironmentLight {
   explicit EnvironmentLight(const Environment& environment);
 
   bool black() const { return max_component(mean_) <= 0; }
-  /// The mean over all directions, W/m2/sr.
+  /// The mean radiance over all directions, W/m2/sr.
   const Vec3f& mean() const { return mean_; }
   /// Radiance that arrives from a unit direction (pointing towards the environment).
   Vec3f radiance(const Vec3f& direction) const;
@@ -25,14 +25,14 @@ class EnvironmentLight {
     Vec3f radiance{};   ///< W/m2/sr, never black
     float density = 0;  ///< 1/sr
   };
-  /// A direction by radiance; not when black.
+  /// Samples a direction in proportion to its radiance. The environment must not be black.
   Sample sample(Random& random) const;
   /// The density with which sample() chooses a direction, 1/sr.
   float density(const Vec3f& direction) const;
 
   /// A photon that the environment sends into the region.
   Emission emit(const LightRegion& region, Random& random) const;
-  /// Light from a sampled direction.
+  /// The light that arrives from a sampled direction.
   Arrival arrive(Random& random) const;
 
  private:

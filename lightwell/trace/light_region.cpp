@@ -4,7 +4,7 @@
 namespace lightwell {
 namespace {
 
-/// Of the scene's longest side: a cell or so of the usual grid.
+/// The margin as a share of the scene's longest side: about a cell of the usual grid.
 constexpr float open_margin = 0.04f;
 
 }  // namespace

@@ -6,19 +6,20 @@
 
 namespace lightwell {
 
-/// Where photons carry all of the light: a box, and the sphere round it that beams from afar fill.
+/// The region in which photons carry all of the light: a box, and the sphere around it, whose cross-section the beams
+/// of distant sources fill.
 class LightRegion {
  public:
-  /// The box of a scene; with `open_air`, when an environment shines, some of the air around it, so that a grid has
-  /// nodes before the outsides of walls.
+  /// The box of a scene. With `open_air`, for a scene with an environment, it is enlarged by a margin, so that a grid
+  /// has nodes in front of outer walls.
   LightRegion(const Box3f& bounds, bool open_air);
 
   const Box3f& box() const { return box_; }
-  /// Of the sphere, metres.
+  /// The sphere's radius, metres.
   float radius() const { return radius_; }
-  /// Of the sphere's cross-section, m2.
+  /// The area of the sphere's cross-section, m2.
   float beam_area() const { return pi * radius_ * radius_; }
-  /// A ray that crosses the sphere in a direction, at a uniform place of the beam that fills it.
+  /// A ray through the sphere in a direction, at a uniformly chosen point of its cross-section.
   Ray beam_ray(const Vec3f& direction, Random& random) const;
 
  private:

@@ -19,20 +19,21 @@ class Lights {
   const std::vector<Luminaire>& luminaires() const { return inventory_.luminaires; }
   /// True when there is no light at all.
   bool dark() const { return choice_.total() <= 0; }
-  /// The sum of what sources are chosen by, W: about the mean of power(), and not 0 unless dark.
+  /// The sum of the sources' sampling weights, W: about the channels' mean of power(), and 0 only when dark.
   float total_weight() const { return static_cast<float>(choice_.total()); }
-  /// False when the sum of all light is beyond a float.
+  /// False when the total power is beyond the range of a float.
   bool finite() const;
-  /// Sum over all luminaires, W.
+  /// The power of all luminaires, W.
   Vec3f power() const;
 
-  /// Emits a photon, sources being chosen by power. Must not be dark.
+  /// Emits a photon from a source chosen in proportion to its power. Must not be called when dark.
   Emission emit(Random& random) const;
-  /// Chooses a source by power and a point of it. Radiance 0 when `point` is behind it. Must not be dark.
+  /// Samples the light that arrives at `point` from a random point of a source chosen in proportion to its power.
+  /// Radiance is 0 when `point` is behind the source. Must not be called when dark.
   Arrival sample(const Vec3f& point, Random& random) const;
   /// The density with which sample() at `point` chooses the direction to an emissive surface's `hit`, 1/sr.
   float density(const Vec3f& point, const Hit& hit) const;
-  /// The density with which sample() chooses a direction of the environment, 1/sr.
+  /// The density with which sample() chooses a direction of the environment, which must not be black, 1/sr.
   float environment_density(const Vec3f& direction) const;
 
   /// The luminaire that a hit belongs to; -1 when it does not shine.
@@ -40,7 +41,7 @@ class Lights {
   const EnvironmentLight& environment() const { return environment_; }
   /// The environment's number among the luminaires; -1 when it is black.
   int environment_luminaire() const { return inventory_.environment_luminaire; }
-  /// Where photons carry all of the light.
+  /// The box in which photons carry all of the light.
   const Box3f& region() const { return region_.box(); }
 
  private:

@@ -9,15 +9,15 @@
 
 namespace lightwell {
 
-/// One source of light as a person would count them: a lamp of the scene, a connected piece of emissive surface, or the
+/// A source of light as a person would count it: a lamp of the scene, a connected piece of emissive surface, or the
 /// environment.
 struct Luminaire {
   using Kind = LuminaireId::Kind;
 
   LuminaireId id{};
-  int index = -1;  ///< lamp: into Scene::lamps; surface: into Scene::instances
-  Vec3f power{};   ///< W; of suns and the environment what enters the sphere round the scene
-  // The rest is of a surface alone.
+  int index = -1;  ///< into Scene::lamps for a lamp, Scene::instances for a surface
+  Vec3f power{};   ///< W; for suns and the environment, what enters LightRegion's sphere
+  // Only for surfaces:
   std::vector<uint32_t> faces{};  ///< of the instance's mesh
   Vec3f center{};                 ///< mean over the area
   float area = 0;                 ///< m2
@@ -26,7 +26,7 @@ struct Luminaire {
   Kind kind() const { return id.kind; }
 };
 
-/// Some of a world's luminaires, by their numbers in Lights::luminaires().
+/// A set of a world's luminaires, given by their indices in Lights::luminaires().
 class LuminaireSet {
  public:
   /// The empty set.
@@ -55,7 +55,7 @@ class LuminaireSet {
   bool operator==(const LuminaireSet&) const = default;
 
  private:
-  std::vector<bool> holds_;  // the last one is true
+  std::vector<bool> holds_;  // never ends in false, so that equal sets compare equal
 };
 
 }  // namespace lightwell

@@ -29,7 +29,7 @@ class Inventory {
   }
 
  private:
-  /// Instances with the same key are copies that one node places.
+  /// Instances with the same key are copies placed by one node.
   std::tuple<int, int> copy_key(uint32_t instance) const {
     const Instance& placed = scene_.scene().instances[instance];
     return {placed.node, placed.primitive};
@@ -73,7 +73,7 @@ class Inventory {
     }
   }
 
-  /// Adds a face to its piece of surface, whose centre is still times its area.
+  /// Adds a face to its piece of surface, whose center is not yet divided by its area.
   void add_face(int luminaire, uint32_t instance, uint32_t face) {
     const EmissiveFace& shining = result_.faces.emplace_back(scene_, instance, face);
     Luminaire& piece = result_.luminaires[static_cast<size_t>(luminaire)];
@@ -86,7 +86,7 @@ class Inventory {
     add_element(luminaire, shining.mean_emission(scene_) * shining.spread(), shining.least_weight(scene_));
   }
 
-  /// Whether a face's emission texture is anything but black on it.
+  /// False only if the emission texture is black all over the face.
   bool may_shine(uint32_t instance, uint32_t face) {
     const TextureLookup& texture = scene_.material(instance).emission_texture;
     if (texture.image < 0) return true;
@@ -108,7 +108,7 @@ class Inventory {
   const EnvironmentLight& environment_;
   const LightRegion& region_;
   std::map<std::tuple<int, int>, int> copies_;
-  std::map<int, LitTexels> lit_texels_;  // of emission textures
+  std::map<int, LitTexels> lit_texels_;  // of emission textures, by image
   LuminaireInventory result_;
 };
 

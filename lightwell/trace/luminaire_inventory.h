@@ -10,24 +10,24 @@
 
 namespace lightwell {
 
-/// The luminaires of a scene and what they are made of: one element a lamp, one a face of emissive surface, one for the
-/// environment. Elements are what sampling chooses among.
+/// The luminaires of a scene and their elements, among which sampling chooses: one for each lamp, one for each face of
+/// emissive surface, and one for the environment.
 struct LuminaireInventory {
   struct Element {
     int luminaire = 0;
-    float weight = 0;  ///< what it is chosen by: about its power, W
+    float weight = 0;  ///< sampling weight: about its power, W
   };
 
   std::vector<Luminaire> luminaires;
   std::vector<Element> elements;    ///< lamps first, then faces, then the environment
-  std::vector<EmissiveFace> faces;  ///< of the elements behind those of lamps, in their order
-  std::vector<int> first_element;   ///< of each instance, its faces follow one another; -1: does not shine
+  std::vector<EmissiveFace> faces;  ///< of the elements after those of lamps, in the same order
+  std::vector<int> first_element;   ///< of each instance; its faces follow one another; -1: it does not shine
   int environment_luminaire = -1;   ///< its element is the last one; -1 when it is black
   size_t first_face() const { return elements.size() - faces.size() - (environment_luminaire >= 0); }
 };
 
-/// Counts the sources of light of a scene. Every connected piece of emissive surface is a luminaire, also one that
-/// turns out to be black.
+/// Lists the light sources of a scene. Every connected piece of emissive surface is a luminaire, even one that turns
+/// out to be black.
 LuminaireInventory take_inventory(const TraceScene& scene, const EnvironmentLight& environment,
                                   const LightRegion& region);
 

@@ -7,24 +7,24 @@
 namespace lightwell {
 namespace {
 
-/// The width of the GGX lobe; a perfect mirror is taken as a very smooth lobe, which can be sampled like any other.
+/// The width of the GGX lobe; a perfect mirror is treated as a very smooth lobe, which can be sampled like any other.
 float alpha_of(float roughness) { return std::max(roughness * roughness, 0.02f); }
 
-/// Microfacet distribution: area of facets with the given cosine to the normal.
+/// The GGX distribution of microfacet normals at a cosine to the normal.
 float ggx(float cosine, float alpha) {
   const float a2 = alpha * alpha;
   const float d = cosine * cosine * (a2 - 1) + 1;
   return a2 / (pi * d * d);
 }
 
-/// Smith's Lambda: the number of facets that are hidden for each that is seen.
+/// Smith's Lambda: the area of hidden facets per visible one.
 float smith_lambda(float cosine, float alpha) {
   const float c2 = cosine * cosine;
   return (std::sqrt(1 + alpha * alpha * (1 - c2) / c2) - 1) / 2;
 }
 
-/// A facet's normal with the density of those that `out` sees (local frame, z is the normal); Heitz,
-/// Sampling the GGX Distribution of Visible Normals, JCGT 2018.
+/// Samples the normal of a facet visible from `out`, in the local frame whose z is the normal (Heitz, Sampling the GGX
+/// Distribution of Visible Normals, JCGT 2018).
 Vec3f sample_visible_facet(const Vec3f& out, float alpha, Random& random) {
   const Vec3f stretched = normalized(Vec3f{{alpha * out[0], alpha * out[1], out[2]}});
   const float across = stretched[0] * stretched[0] + stretched[1] * stretched[1];
@@ -104,18 +104,18 @@ Surface surface_of(const Material& material, const std::vector<Image>& images, c
   Surface surface;
   if (material.alpha == Material::Alpha::mask) surface.coverage = base[3] >= material.alpha_cutoff ? 1.0f : 0.0f;
   if (material.alpha == Material::Alpha::blend) surface.coverage = std::clamp(base[3], 0.0f, 1.0f);
-  // Transmission replaces the diffuse part of the dielectric alone (KHR_materials_transmission): of all light the
-  // colour's (1 - metallic) transmission passes, its (1 - metallic) (1 - transmission) is diffuse, its metallic part is
-  // metal. What passes is one number, the mean over the colour's channels; the others are shares of the light that does
-  // not pass.
+  // Transmission replaces only the diffuse part of the dielectric (KHR_materials_transmission): of all light, color *
+  // (1 - metallic) * transmission passes, color * (1 - metallic) * (1 - transmission) is reflected diffusely and color
+  // * metallic by the metal. `passing` is one number, the mean over the channels; the BSDF's parts are shares of the
+  // light that does not pass.
   const float dielectric = 1 - metallic;
   const float passing = dielectric * material.transmission * mean_of_channels(color);
-  const float met = 1 - passing;
-  surface.coverage *= met;
-  if (met > 0) {
-    surface.bsdf.diffuse = color * (dielectric * ((1 - material.transmission) / met));
-    surface.bsdf.metal = color * (metallic / met);
-    surface.bsdf.metallic = metallic / met;
+  const float stopped = 1 - passing;
+  surface.coverage *= stopped;
+  if (stopped > 0) {
+    surface.bsdf.diffuse = color * (dielectric * ((1 - material.transmission) / stopped));
+    surface.bsdf.metal = color * (metallic / stopped);
+    surface.bsdf.metallic = metallic / stopped;
   }
   surface.bsdf.roughness = std::clamp(material.roughness * metal_rough[1], 0.0f, 1.0f);
   surface.emission = material.emission * rgb(look_up(material.emission_texture, images, texcoords, true));

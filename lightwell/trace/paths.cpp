@@ -4,10 +4,10 @@
 namespace lightwell {
 namespace {
 
-/// How many bounces a path keeps all of its light before Russian roulette begins.
+/// The number of bounces before Russian roulette begins.
 constexpr int sure_bounces = 2;
 
-/// A path that grows from its receiver, and hands on the light that it finds.
+/// A path that starts at its receiver and reports the light that it finds.
 class Path {
  public:
   Path(const World& world, const Receiver& receiver, int max_bounces, Random& random, ReceivedLight& received)
@@ -18,7 +18,7 @@ class Path {
         random_(random),
         received_(received) {}
 
-  /// The number of rays that it took.
+  /// Traces the path; returns the number of rays.
   int trace() {
     for (bounces_ = 0; bounces_ <= max_bounces_; bounces_++) {
       sample_lights();
@@ -28,7 +28,7 @@ class Path {
   }
 
  private:
-  /// Light that a luminaire sends to the present vertex, seen from the receiver.
+  /// Reports light of a luminaire at the current vertex, as it is seen from the receiver.
   void add(int luminaire, const Vec3f& light) { received_.add(luminaire, bounces_, throughput_ * light); }
 
   void sample_lights() {
@@ -46,7 +46,7 @@ class Path {
   bool hidden(const Arrival& arrival) {
     Ray ray{.origin = surfaces_.leave(vertex_.position, vertex_.normal), .direction = arrival.direction};
     if (std::isfinite(arrival.distance)) {
-      // The ray ends short of the source, as seen from where it really starts.
+      // The ray ends just short of the source, measured from its offset origin.
       const Vec3f source = vertex_.position + arrival.direction * arrival.distance;
       const Vec3f way = source - ray.origin;
       const float distance = length(way);
@@ -58,7 +58,7 @@ class Path {
     return surfaces_.occluded(ray, random_);
   }
 
-  /// Follows a direction of the vertex's reflection to the next vertex; false where the path ends.
+  /// Samples a direction of reflection and follows it to the next vertex; false where the path ends.
   bool extend() {
     const Bsdf::Sample sample = vertex_.bsdf.sample(vertex_.shading_normal, vertex_.out, random_);
     if (max_component(sample.weight) <= 0 || dot(vertex_.normal, sample.in) <= 0) return false;
@@ -108,7 +108,7 @@ class Path {
   Random& random_;
   ReceivedLight& received_;
   Vec3f throughput_ = Vec3f::filled(1);
-  float receiver_throughput_ = 1;  // right behind the receiver: what survival is measured against
+  float receiver_throughput_ = 1;  // after the receiver: the reference for Russian roulette
   int bounces_ = 0;
   int rays_ = 0;
 };

@@ -10,27 +10,27 @@ struct Receiver {
   Vec3f position{};  ///< on the surface, or in free space
   Vec3f normal{};    ///< geometric, on the side that receives
   Vec3f shading_normal{};
-  Vec3f out{};  ///< unit, towards who looks
+  Vec3f out{};  ///< unit, towards the viewer
   Bsdf bsdf;
 
-  /// A receiver whose reflected light is the irradiance of `normal`.
+  /// A receiver whose reflected radiance equals the irradiance of a surface with this normal.
   static Receiver irradiance(const Vec3f& position, const Vec3f& normal);
 };
 
-/// Takes what a receiver reflects towards who looks, in the portions that a path finds.
+/// Collects the light that a receiver reflects towards the viewer, in the portions that a path finds.
 class ReceivedLight {
  public:
   virtual ~ReceivedLight() = default;
-  /// Light of a luminaire (its number in Lights::luminaires()) that came by so many reflections before the receiver: 0
+  /// Adds light of a luminaire (an index into Lights::luminaires()) after `bounces` reflections before the receiver; 0
   /// is straight from the source.
   virtual void add(int luminaire, int bounces, const Vec3f& light) = 0;
 };
 
-/// Received light in two sums: straight from its source, and after at least one reflection. Light straight from the
-/// luminaires `left_out`, such as those whose light a grid holds, is in neither.
+/// Received light in two sums: direct, and after at least one reflection. Direct light of the luminaires `left_out`,
+/// such as those whose light a grid holds, is in neither.
 class DirectAndIndirect : public ReceivedLight {
  public:
-  /// The set outlives this.
+  /// The set must outlive this.
   explicit DirectAndIndirect(const LuminaireSet& left_out) : left_out_(left_out) {}
   void add(int luminaire, int bounces, const Vec3f& light) override {
     if (bounces > 0)
@@ -45,7 +45,7 @@ class DirectAndIndirect : public ReceivedLight {
   const LuminaireSet& left_out_;
 };
 
-/// Received light by the luminaire that it comes from.
+/// Received light, summed by the luminaire that it comes from.
 class LightByLuminaire : public ReceivedLight {
  public:
   struct Sums {
@@ -58,12 +58,12 @@ class LightByLuminaire : public ReceivedLight {
     (bounces > 0 ? of_luminaire.indirect : of_luminaire.direct) += light;
   }
 
-  std::vector<Sums> sums;  ///< one a luminaire
+  std::vector<Sums> sums;  ///< one for each luminaire
 };
 
-/// Traces a path from the receiver, at each vertex one sample of the lights and one of the surface, weighted by the
-/// power heuristic (Veach and Guibas, Optimally Combining Sampling Techniques, SIGGRAPH 1995). Unbiased up to
-/// `max_bounces` between the source and the receiver; 0 is direct light only. Gives the number of rays that it took.
+/// Traces a path from the receiver. Every vertex takes one sample of the lights and one of the surface, weighted by the
+/// power heuristic (Veach and Guibas, Optimally Combining Sampling Techniques, SIGGRAPH 1995). Unbiased for light with
+/// up to `max_bounces` reflections before the receiver; 0 is direct light only. Returns the number of rays traced.
 int trace_path(const World& world, const Receiver& receiver, int max_bounces, Random& random, ReceivedLight& received);
 
 }  // namespace lightwell

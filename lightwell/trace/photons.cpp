@@ -4,7 +4,7 @@
 namespace lightwell {
 namespace {
 
-/// Where albedos of 1 in a closed room would keep a photon flying for ever.
+/// Ends photons that albedos of 1 in a closed room would keep flying for ever.
 constexpr int max_bounces = 1000;
 
 }  // namespace

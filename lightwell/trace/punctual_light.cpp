@@ -4,7 +4,7 @@
 namespace lightwell {
 namespace {
 
-/// KHR_lights_punctual: how much of a spot's intensity is left at an angle, by its cosine to the axis.
+/// The share of a spot's intensity at an angle, given its cosine to the axis (KHR_lights_punctual).
 float cone(const Lamp& lamp, float cosine) {
   if (lamp.kind != Lamp::Kind::spot) return 1;
   const float inner = std::cos(lamp.inner_cone), outer = std::cos(lamp.outer_cone);
@@ -12,7 +12,7 @@ float cone(const Lamp& lamp, float cosine) {
   return x * x;
 }
 
-/// The solid angle of a spot's light, its fading edge counted by what is left there.
+/// The solid angle of a spot's cone, its fading edge weighted by the intensity left there.
 float cone_solid_angle(const Lamp& lamp) {
   const float outer = std::cos(lamp.outer_cone);
   const float width = std::max(0.001f, std::cos(lamp.inner_cone) - outer);
@@ -21,7 +21,7 @@ float cone_solid_angle(const Lamp& lamp) {
   return 2 * pi * (1 - full_from + edge * edge * edge / (3 * width * width));
 }
 
-/// KHR_lights_punctual: the window that ends a lamp's light at its range.
+/// The window that ends a lamp's light at its range (KHR_lights_punctual).
 float range_window(const Lamp& lamp, float distance) {
   if (lamp.range <= 0) return 1;
   const float x = distance / lamp.range;
@@ -54,7 +54,7 @@ Emission emit_punctual(const Lamp& lamp, const LightRegion& region, Random& rand
         Frame(lamp.direction).to_world({{radius * std::cos(angle), radius * std::sin(angle), cosine}});
     emission.flux = lamp.intensity * (cone(lamp, cosine) * 2 * pi * (1 - outer));
   }
-  // 1 - (distance / range)^4 of the photons get beyond a distance.
+  // A share of 1 - (distance / range)^4 of the photons gets beyond a distance.
   if (lamp.range > 0) emission.ray.far = lamp.range * std::sqrt(std::sqrt(1 - random.uniform()));
   return emission;
 }

@@ -27,7 +27,7 @@ Vec3f sample_sphere(Random& random) {
 }
 
 Vec3f sample_disc(Random& random) {
-  // By rejection from the square: cheaper than sine and cosine.
+  // Rejection from the square is cheaper than sine and cosine.
   for (;;) {
     const float x = 2 * random.uniform() - 1, y = 2 * random.uniform() - 1;
     if (x * x + y * y < 1) return {{x, y, 0}};

@@ -37,8 +37,8 @@ Vec3f sample_disc(Random& random);
 Vec2f sample_triangle(Random& random);
 
 /// The power heuristic for one sample of each of two densities: the weight of the first (Veach and Guibas, Optimally
-/// Combining Sampling Techniques, SIGGRAPH 1995). Both weights sum to 1, also where a density's square leaves a float's
-/// range.
+/// Combining Sampling Techniques, SIGGRAPH 1995). The two weights sum to 1 even where a density's square leaves the
+/// range of a float.
 inline float power_heuristic(float of_this, float of_other) {
   if (of_this <= 0) return 0;
   const float ratio = of_other / of_this;
@@ -49,13 +49,14 @@ inline float power_heuristic(float of_this, float of_other) {
 class Distribution {
  public:
   Distribution() = default;
-  /// Weights are finite and not negative.
+  /// The weights must be finite and not negative.
   explicit Distribution(const std::vector<float>& weights);
 
   /// The sum of the weights; when it is 0 there is nothing to sample.
   double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
   size_t size() const { return cumulative_.size(); }
-  /// An index; the total must not be 0. Draws 32 bits, so that large maps and meshes are sampled everywhere.
+  /// Samples an index; the total must not be 0. Draws 32 bits, so that all entries of large maps and meshes can be
+  /// chosen.
   size_t sample(Random& random) const;
   /// The probability of an index.
   float probability(size_t index) const;

@@ -29,7 +29,7 @@ Vec4f texel(const Image& image, int x, int y, bool srgb) {
   return {{color(0), color(grey ? 0 : 1), color(grey ? 0 : 2), alpha}};
 }
 
-/// Coordinates far outside are of no use to a texture, and would not fit an int.
+/// Limits a coordinate so that it fits an int, 0 if it is not finite; no texture is used that far out.
 float bounded(float x) { return std::isfinite(x) ? std::clamp(x, -1e6f, 1e6f) : 0.0f; }
 
 }  // namespace

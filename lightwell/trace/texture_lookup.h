@@ -6,8 +6,8 @@
 namespace lightwell {
 
 /// The texture's RGBA at texture coordinates, bilinear between the texels' centres. With `srgb`, RGB is decoded to
-/// linear light before it is interpolated; alpha never is. White where there is no image. Grey images give three equal
-/// colours.
+/// linear light before interpolation; alpha is linear already. White where there is no image. Grey images give three
+/// equal channels.
 Vec4f look_up(const TextureLookup& texture, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
               bool srgb);
 

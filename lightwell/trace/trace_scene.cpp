@@ -9,8 +9,8 @@
 namespace lightwell {
 namespace {
 
-/// A primitive that would take more faces than this when it is copied for each of its instances is placed by Embree:
-/// one level of the tree more, which slows rays down but keeps forests in memory.
+/// A primitive whose copies for all of its instances have more faces than this is instanced by Embree: the extra level
+/// of the tree slows rays down but keeps forests in memory.
 constexpr size_t max_copied_faces = 1 << 20;
 
 RTCRay embree_ray(const Ray& ray) {
@@ -33,9 +33,9 @@ T interpolated(const std::vector<T>& values, const Face& face, float u, float v)
 
 }  // namespace
 
-/// A ray's own context: what chance it gave to surfaces that light passes.
+/// A ray's context: the salt by which chance decides which partly transparent surfaces it passes.
 struct TraceScene::Context {
-  RTCIntersectContext embree;  // first, so that Embree's pointer to it is one to this
+  RTCIntersectContext embree;  // first, so that Embree's pointer to it also points to this
   uint64_t salt = 0;
 
   explicit Context(uint64_t ray_salt) : salt(ray_salt) { rtcInitIntersectContext(&embree); }
@@ -83,8 +83,8 @@ Result<void> TraceScene::commit(int threads) {
   return {};
 }
 
-/// Beyond the limit areas and powers would leave a float's range, and farther out Embree drops triangles without a
-/// word.
+/// Checks the distance of all meshes from the origin: beyond the limit, areas and powers would leave the range of a
+/// float, and even farther out Embree silently drops triangles.
 Result<void> TraceScene::check_extent() const {
   std::vector<Box3f> boxes;
   for (const Primitive& primitive : scene_.primitives) boxes.push_back(primitive.mesh.bounds());
@@ -132,7 +132,7 @@ void TraceScene::place(uint32_t index) {
   rtcReleaseGeometry(geometry);
 }
 
-/// The triangles of an instance: in scene space with `to_scene`, else in the primitive's own.
+/// The triangles of an instance: in scene space with `to_scene`, otherwise in the primitive's own.
 RTCGeometryTy* TraceScene::new_geometry(Placed& placed, const Transform* to_scene) {
   const Mesh& mesh = *placed.mesh;
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -175,7 +175,7 @@ void TraceScene::mark_uniform(Placed& placed) const {
   if (placed.uniform) placed.surface = surface_of(m, scene_.images, {}, Vec4f::filled(1));
 }
 
-/// Two numbers, each in a statement of its own: the order in which one expression draws is the compiler's.
+/// Draws two numbers in separate statements: within one expression the order would be unspecified.
 uint64_t TraceScene::salt(Random& random) const {
   if (!lets_light_pass_) return 0;
   const uint64_t high = random.bits();
@@ -203,7 +203,8 @@ bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
   return true;
 }
 
-/// The unit normal of a front from the face's normal by its winding, in the space that Embree has the face in.
+/// The unit normal of a face's front in scene space, given its normal by winding in the space in which Embree holds the
+/// face.
 Vec3f TraceScene::front_normal(uint32_t instance, const Vec3f& by_winding) const {
   const Placed& placed = placed_[instance];
   if (!placed.scene_positions) return scene_.instances[instance].to_scene.normal(normalized(by_winding));
@@ -217,8 +218,8 @@ bool TraceScene::occluded(const Ray& ray, Random& random) const {
   return r.tfar < 0;
 }
 
-/// Called by Embree for each hit with a surface that light may pass: takes the hit back by the ray's chance. The chance
-/// depends on ray and face only, so that the order in which Embree finds the hits does not matter.
+/// Called by Embree for each hit of a partly transparent surface: rejects the hit by chance. The chance depends on ray
+/// and face only, so that the order in which Embree finds hits does not matter.
 void TraceScene::filter(const RTCFilterFunctionNArguments* arguments) {
   LW_ASSERT(arguments->N == 1);
   if (arguments->valid[0] == 0) return;

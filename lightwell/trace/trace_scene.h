@@ -39,20 +39,20 @@ struct Hit {
 /// A scene made ready for tracing rays with Embree: everything but deforming primitives. Threads may share it.
 class TraceScene {
  public:
-  /// The scene must outlive the result and stay as it is. `threads` build Embree's tree, 0: all processors. Fails when
-  /// it has no triangle, when positions leave the range of numbers that can be calculated with, or when memory runs
-  /// out.
+  /// Builds Embree's tree with `threads` threads, 0: all processors. The scene must outlive the result unchanged. Fails
+  /// when there is no triangle to trace, when a mesh reaches beyond `farthest_position`, or when memory runs out.
   static Result<std::unique_ptr<const TraceScene>> build(const Scene& scene, int threads = 0);
   ~TraceScene();
   TraceScene(const TraceScene&) = delete;
   TraceScene& operator=(const TraceScene&) = delete;
 
   const Scene& scene() const { return scene_; }
-  /// The box of all that is traced.
+  /// The bounding box of everything that is traced, metres.
   const Box3f& bounds() const { return bounds_; }
 
-  /// The nearest surface. Where a surface lets part of the light pass (alpha, transmission), chance decides whether the
-  /// ray meets it: two numbers are drawn from `random` in scenes with such surfaces.
+  /// Finds the nearest surface; false when there is none. Where a surface lets part of the light pass (alpha,
+  /// transmission), chance decides whether the ray hits it: in scenes with such surfaces two numbers are drawn from
+  /// `random`.
   bool intersect(const Ray& ray, Random& random, Hit& hit) const;
   /// True when something stops the ray before its end.
   bool occluded(const Ray& ray, Random& random) const;
@@ -61,7 +61,7 @@ class TraceScene {
   Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v); }
   /// The material at a point of a face; u and v are the weights of its second and third corner.
   Surface surface(uint32_t instance, uint32_t face, float u, float v) const;
-  /// Of an instance that is traced.
+  /// The material of an instance that is traced.
   const Material& material(uint32_t instance) const { return *placed_[instance].material; }
   const Mesh& mesh(uint32_t instance) const { return *placed_[instance].mesh; }
   /// False for deforming primitives, which are left out.
@@ -70,7 +70,7 @@ class TraceScene {
   /// True when the material is the same everywhere on the instance.
   bool is_uniform(uint32_t instance) const { return placed_[instance].uniform; }
 
-  /// The radiance that a hit surface sends back along the ray: that of its front, of both sides when double-sided.
+  /// The radiance emitted back along the ray: by the front of a surface, by both sides when double-sided.
   Vec3f emission(const Hit& hit, const Surface& surface) const;
   /// The interpolated vertex normal, unit, turned to the side that the ray came from; the geometric one where the mesh
   /// has no normals. For display: transport uses the geometric normal.
@@ -81,22 +81,22 @@ class TraceScene {
   /// The unit normal of a face's front, given its corners.
   Vec3f face_normal(uint32_t instance, const std::array<Vec3f, 3>& corners) const;
 
-  /// What Embree made of it, for measurements.
+  /// The Embree scene, for measurements.
   RTCSceneTy* embree() const { return embree_; }
 
-  /// How far off a surface a ray starts so as not to meet it again, metres.
+  /// The distance from a surface at which a ray starts so as not to hit it again, metres.
   float offset() const { return offset_; }
   /// The origin of a ray that leaves a surface at `position` on the side of `normal`.
   Vec3f leave(const Vec3f& position, const Vec3f& normal) const { return position + normal * offset_; }
 
  private:
-  /// What a traced instance is made of.
+  /// A traced instance.
   struct Placed {
     const Mesh* mesh = nullptr;
     const Material* material = nullptr;
-    const float* scene_positions = nullptr;  // three a vertex; null when Embree places the instance
+    const float* scene_positions = nullptr;  // three floats a vertex; null when Embree places the instance
     bool mirrored = false;
-    bool uniform = false;  // the material is the same everywhere: `surface`
+    bool uniform = false;  // the material is the same everywhere, namely `surface`
     Surface surface;
   };
   struct Context;
@@ -116,7 +116,7 @@ class TraceScene {
   const Scene& scene_;
   RTCDeviceTy* device_ = nullptr;
   RTCSceneTy* embree_ = nullptr;
-  std::vector<RTCSceneTy*> shared_;  // of each primitive that is placed by Embree
+  std::vector<RTCSceneTy*> shared_;  // of each primitive; null unless Embree places its instances
   std::vector<int> uses_;            // instances of each primitive
   std::vector<Placed> placed_;       // of each instance
   Box3f bounds_;

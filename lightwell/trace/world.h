@@ -12,9 +12,8 @@ namespace lightwell {
 /// share it.
 class World {
  public:
-  /// The scene must outlive the world and stay as it is. `threads` build Embree's tree, 0: all processors. Fails when
-  /// the scene has no triangle, when positions or light leave the range of numbers that can be calculated with, or when
-  /// memory runs out.
+  /// Builds Embree's tree with `threads` threads, 0: all processors. The scene must outlive the world unchanged. Fails
+  /// as TraceScene::build does, and when the power of all light is beyond the range of a float.
   static Result<std::unique_ptr<const World>> build(const Scene& scene, int threads = 0);
 
   const Scene& scene() const { return surfaces_->scene(); }

@@ -33,10 +33,6 @@ void report(Client& client, const TransportEvent& event, double now) {
   }
 }
 
-ErrorKind kind_of(FailureUpdate::Reason reason) {
-  return reason == FailureUpdate::Reason::unreadable ? ErrorKind::bad_input : ErrorKind::io;
-}
-
 /// Hands the updates of a client on and keeps the time of each advance.
 class Watcher {
  public:
@@ -146,7 +142,7 @@ Result<FetchOutcome> fetch(Client& client, Transport& transport, const std::func
     watcher.drain(client);
     watcher.remember(client, transport.now(), outcome);
   }
-  if (watcher.failure()) return fail(kind_of(watcher.failure()->reason), "", watcher.failure()->message);
+  if (watcher.failure()) return fail(watcher.failure()->kind, "", watcher.failure()->message);
   perform(client, transport);
   outcome.bytes = client.progress().bytes;
   outcome.requests = client.progress().requests;

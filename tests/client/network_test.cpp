@@ -205,6 +205,7 @@ TEST(Network, UnknownCodecIsNamed) {
                                  to_text(reader.directory().streams[stream].kind) +
                                  " codec 7 is not known to this program");
     EXPECT_EQ(scene.reason, Reason::unreadable);
+    EXPECT_EQ(scene.kind, ErrorKind::unsupported);
     EXPECT_FALSE(scene.complete);
   }
 }

@@ -84,6 +84,7 @@ struct Apply {
   std::string operator()(const FailureUpdate& update) {
     scene.failure = update.message;
     scene.reason = update.reason;
+    scene.kind = update.kind;
     return {};
   }
 

@@ -38,6 +38,7 @@ struct ReceivedScene {
   bool complete = false;
   std::string failure;
   FailureUpdate::Reason reason{};
+  ErrorKind kind{};
 
   /// Applies an update. Gives a complaint when it breaks what update.h promises: order, sizes, faces that may be drawn.
   std::string apply(const Update& update);

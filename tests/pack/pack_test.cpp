@@ -60,7 +60,7 @@ TEST(Pack, IsAGlbWhoseThirdChunkReachesTheEnd) {
   EXPECT_EQ(reader.u32(), glb_magic);
   EXPECT_EQ(reader.u32(), 2u);
   EXPECT_EQ(reader.u32(), file.size());
-  for (const uint32_t type : {chunk_json, chunk_bin, chunk_lwst}) {
+  for (const uint32_t type : {glb_json_chunk, glb_bin_chunk, chunk_lwst}) {
     const uint32_t length = reader.u32();
     EXPECT_EQ(length % 4, 0u);
     EXPECT_EQ(reader.u32(), type);
@@ -213,7 +213,7 @@ TEST(Opening, OfAPlainGlbIsRefused) {
   file.u32(2);
   file.u32(28);
   file.u32(8);
-  file.u32(chunk_json);
+  file.u32(glb_json_chunk);
   file.append(as_bytes("{      }"));
   const auto size = measure_opening(file.bytes());
   ASSERT_FALSE(size);

@@ -51,5 +51,15 @@ TEST(OpenedPack, RefusesStreamsThatThereAreNot) {
   }
 }
 
+// Whoever exports or renders a stranger's pack must not read files of his own into it.
+TEST(OpenedPack, RefusesOtherFiles) {
+  const Packed packed = pack(sheet_document(50));
+  const OpenedPack sound = open(packed.file);
+  Json json = sound.json();
+  json["images"].push_back({{"uri", "CMakeLists.txt"}});
+  const std::vector<uint8_t> file = rewrite(sound, json, streams_of(sound.reader()));
+  EXPECT_FALSE(try_open(file));
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/render/find_integrator.h"
 #include "tests/trace/scenes.h"
 #include "tests/trace/truth.h"
 

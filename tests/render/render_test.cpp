@@ -5,6 +5,7 @@
 
 #include "lightwell/render/camera.h"
 #include "lightwell/render/grid_integrator.h"
+#include "tests/render/find_integrator.h"
 #include "tests/trace/scenes.h"
 #include "tests/trace/truth.h"
 

@@ -95,17 +95,17 @@ TEST(ReceivedLight, ByLuminaireAddsUpToTheWhole) {
   const Receiver receiver = Receiver::irradiance({{2, 0, 2}}, {{0, 1, 0}});
   const LuminaireSet first = luminaires({1});
   DirectAndIndirect without_first(first);
-  LightByLuminaire apart(world->lights());
+  LightByLuminaire by_luminaire(world->lights());
   const LuminaireSet none;
   DirectAndIndirect sums(none);
   for (uint64_t i = 0; i < 2000; i++) {
     Random a(1, i), b(1, i), c(1, i);
     const int rays = trace_path(*world, receiver, 8, a, sums);
-    EXPECT_EQ(trace_path(*world, receiver, 8, b, apart), rays);
+    EXPECT_EQ(trace_path(*world, receiver, 8, b, by_luminaire), rays);
     trace_path(*world, receiver, 8, c, without_first);
   }
   Vec3f direct{}, indirect{};
-  for (const LightByLuminaire::Sums& of_luminaire : apart.sums) {
+  for (const LightByLuminaire::Sums& of_luminaire : by_luminaire.sums) {
     EXPECT_GT(max_component(of_luminaire.direct), 0);
     EXPECT_GT(max_component(of_luminaire.indirect), 0);
     direct += of_luminaire.direct;
@@ -114,7 +114,7 @@ TEST(ReceivedLight, ByLuminaireAddsUpToTheWhole) {
   for (int c = 0; c < 3; c++) {  // sums of 2000 floats in another order
     EXPECT_NEAR(direct[c] / sums.direct[c], 1, 1e-4f);
     EXPECT_NEAR(indirect[c] / sums.indirect[c], 1, 1e-4f);
-    EXPECT_NEAR((without_first.direct[c] + apart.sums[0].direct[c]) / sums.direct[c], 1, 1e-4f);
+    EXPECT_NEAR((without_first.direct[c] + by_luminaire.sums[0].direct[c]) / sums.direct[c], 1, 1e-4f);
     EXPECT_NEAR(without_first.indirect[c] / sums.indirect[c], 1, 1e-4f);
   }
 }
