@@ -31,7 +31,7 @@ struct DrawnMesh {
   }
   std::vector<uint32_t> corners() const {
     std::vector<uint32_t> indices(size_t(3) * faces);
-    std::memcpy(indices.data(), buffers.back().data(), indices.size() * 4);
+    if (!indices.empty()) std::memcpy(indices.data(), buffers.back().data(), indices.size() * 4);
     return indices;
   }
 };

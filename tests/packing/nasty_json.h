@@ -68,7 +68,7 @@ inline void spoil(Json& json, Random& random) {
     case 1: value = nasty_value(random); break;
     case 2:
       if (value.is_number_integer())
-        value = value.get<int64_t>() + (random.below(2) ? 1 : -1);
+        value = value.get<uint64_t>() + (random.below(2) ? 1 : uint64_t(-1));  // round the corner at the ends
       else if (value.is_number())
         value = value.get<double>() * (random.below(2) ? 1.5 : -1);
       else
