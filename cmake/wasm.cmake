@@ -10,7 +10,7 @@ set(wasm_module ${CMAKE_BINARY_DIR}/lib/lightwell.wasm)
 # then decoded in 0.43 instead of 0.54 s of CPU time, in a worker, while its bytes take longer to come.
 set(wasm_flags --target=wasm32-wasi -std=c++20 -Oz -flto -fwhole-program-vtables -fno-exceptions -fno-rtti -fvisibility=hidden -ffunction-sections
   -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext -ffp-contract=off
-  -DNDEBUG -Wall -Wextra -Wshadow -I${CMAKE_SOURCE_DIR} -isystem ${wasm_folder}/include)
+  -DNDEBUG -Wall -Wextra -Wshadow -I${PROJECT_SOURCE_DIR} -isystem ${wasm_folder}/include)
 if(LIGHTWELL_WERROR)
   list(APPEND wasm_flags -Werror)
 endif()
@@ -24,7 +24,7 @@ file(CREATE_LINK ${LIGHTWELL_EXPECTED_INCLUDE}/tl ${wasm_folder}/include/tl SYMB
 function(lightwell_wasm_objects out)
   set(objects "")
   foreach(source ${ARGN})
-    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR} ${source})
+    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
     string(REPLACE "/" "_" name ${name})
     set(object ${wasm_folder}/${name}.o)
     add_custom_command(OUTPUT ${object}

@@ -12,6 +12,9 @@ constexpr double closed_escapes = 1e-3;
 /// Photons traced between checks whether there are enough. One batch is enough to tell whether a scene is closed.
 constexpr uint64_t batch = 1 << 16;
 
+/// Pieces of double-sided surface that all threads together may count, 16 bytes each: beyond that fewer threads count.
+constexpr size_t most_counts = 1 << 24;
+
 /// The observations of one thread.
 struct Sightings {
   Solids::Hits hits;
@@ -39,7 +42,9 @@ struct Sightings {
 
 Result<FreeSpace> FreeSpace::survey(const World& world, const SurveyOptions& options, Progress& progress) {
   FreeSpace space(Solids(world.surfaces()));
-  const int threads = options.threads > 0 ? options.threads : default_threads();
+  const int wanted = options.threads > 0 ? options.threads : default_threads();
+  const size_t affordable = std::max<size_t>(1, most_counts / (1 + space.solids_.no_hits().front.size()));
+  const int threads = static_cast<int>(std::min(affordable, static_cast<size_t>(wanted)));
   std::vector<Sightings> seen(static_cast<size_t>(threads), Sightings{space.solids_.no_hits()});
   Sightings sum{space.solids_.no_hits()};
   for (uint64_t first = 0; first < options.most_photons && !(first > 0 && space.solids_.settled(sum.hits));

@@ -56,6 +56,7 @@ Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options
                 "--environment 1,1,1 lights it from all around");
   }
   const auto start = std::chrono::steady_clock::now();
+  progress.stage("free space", 0, "photons");
   LW_TRY(shape, place_nodes(world, options.nodes));
   SurveyOptions survey{.seed = options.estimator.seed, .threads = options.threads};
   survey.most_photons = std::min(survey.most_photons, options.estimator.photons);

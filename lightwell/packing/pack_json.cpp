@@ -53,8 +53,9 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
       const TextureParameters& parameters = content.images[i].parameters;
       texture["extensions"][texture_extension] = to_json(RefinedTexture{
           static_cast<uint32_t>(content.image_stream(i)), parameters.width, parameters.height, parameters.format});
-      use_extension(json, texture_extension);
     }
+  if (!content.images.empty())
+    use_extension(json, texture_extension);  // may move the textures: not while they are changed
   json["extensions"][grids_extension] = to_json(describe(light, content));
   use_extension(json, grids_extension);
   json["extensions"][lamps_extension] = to_json(light.lamps);

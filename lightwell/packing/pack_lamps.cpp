@@ -2,6 +2,7 @@
 #include "lightwell/packing/pack_lamps.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "lightwell/mesh/connected_faces.h"
@@ -38,14 +39,15 @@ std::set<Vec3i> places_of_piece(const Mesh& mesh, uint32_t vertex, const Lattice
 }
 
 /// The first vertex of the coarsest level that coincides with a corner of the piece of surface containing `vertex`.
-/// There is one, since a vertex collapses only into one that shares an edge or a position with it.
-uint32_t vertex_in_stream(const Mesh& mesh, uint32_t vertex, const EncodedMesh& encoded) {
+/// There is none where the whole piece is smaller than a step of the lattice: then the stream has no face of it.
+std::optional<uint32_t> vertex_in_stream(const Mesh& mesh, uint32_t vertex, const EncodedMesh& encoded) {
   const Lattice& lattice = encoded.layout.positions;
   const std::set<Vec3i> places = places_of_piece(mesh, vertex, lattice);
   const std::vector<Vec3f>& base = encoded.base.positions;
   const auto found = std::find_if(base.begin(), base.end(), [&](const Vec3f& p) {
     return places.contains({{lattice.exact_code(p[0]), lattice.exact_code(p[1]), lattice.exact_code(p[2])}});
   });
+  if (found == base.end()) return {};
   return static_cast<uint32_t>(found - base.begin());
 }
 
@@ -57,10 +59,13 @@ std::vector<ClientLamp> lamps_of_pack(std::span<const ClientLamp> lamps, const S
   for (ClientLamp& lamp : renamed) {
     if (lamp.luminaire.kind != LuminaireId::Kind::surface) continue;
     const int primitive = primitive_of(lamp.luminaire, scene);
-    for (const StreamedMesh& mesh : streamed)
-      if (mesh.primitive == primitive)
-        lamp.luminaire.vertex = vertex_in_stream(scene.primitives[static_cast<size_t>(primitive)].mesh,
-                                                 lamp.luminaire.vertex, mesh.encoded);
+    for (const StreamedMesh& mesh : streamed) {
+      if (mesh.primitive != primitive) continue;
+      const Mesh& source = scene.primitives[static_cast<size_t>(primitive)].mesh;
+      const auto vertex = vertex_in_stream(source, lamp.luminaire.vertex, mesh.encoded);
+      lamp.luminaire = vertex ? lamp.luminaire : LuminaireId{.kind = LuminaireId::Kind::surface};
+      if (vertex) lamp.luminaire.vertex = *vertex;
+    }
   }
   return renamed;
 }

@@ -49,8 +49,8 @@ void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed
 void use_known_texcoords(Json& json) {
   constexpr int sets = 2;
   if (json.is_object() && index_of(json, "texCoord") >= sets) json.erase("texCoord");
-  for (Json& part : json)
-    if (part.is_structured()) use_known_texcoords(part);
+  for (auto& [name, part] : json.items())
+    if (part.is_structured() && name != "extras") use_known_texcoords(part);
 }
 
 // Names an unnamed scene after its file.

@@ -85,6 +85,10 @@ Result<Comparison> compare(const Picture& picture, const Picture& reference, Met
                                 std::to_string(reference.height));
   }
   if (picture.pixels.empty()) return fail("pictures", "have no pixels");
+  for (const Picture* either : {&picture, &reference})
+    if (!std::ranges::all_of(either->pixels, [](float value) { return std::isfinite(value); }))
+      return fail(either == &picture ? "the first picture" : "the second picture",
+                  "has pixels that are no finite numbers");
   Comparison result;
   result.errors = pixel_errors(picture, reference, metric, display);
   result.mean = mean_of(result.errors, metric);

@@ -58,10 +58,11 @@ Readings read_meter(const World& world, const Camera& camera, const LightField& 
   return readings;
 }
 
-float geometric_mean(const std::vector<float>& values) {
-  double logarithms = 0;
-  for (const float value : values) logarithms += std::log2(static_cast<double>(value));
-  return static_cast<float>(std::exp2(logarithms / static_cast<double>(values.size())));
+/// The mean of the base 2 logarithms.
+double mean_stops(const std::vector<float>& values) {
+  double stops = 0;
+  for (const float value : values) stops += std::log2(static_cast<double>(value));
+  return stops / static_cast<double>(values.size());
 }
 
 float percentile(std::vector<float> values, double share) {
@@ -76,10 +77,10 @@ float choose_exposure(const World& world, const Camera& camera, const LightField
                       int threads) {
   const Readings readings = read_meter(world, camera, field, held, threads);
   if (readings.incident.empty()) return 0;
-  float scale = white_surface / geometric_mean(readings.incident);
-  const float bright = percentile(readings.reflected, 0.95);
-  if (bright > 0) scale = std::min(scale, brightest / bright);
-  return std::round(std::log2(scale) * 10) / 10;
+  double stops = std::log2(static_cast<double>(white_surface)) - mean_stops(readings.incident);
+  const auto bright = static_cast<double>(percentile(readings.reflected, 0.95));
+  if (bright > 0) stops = std::min(stops, std::log2(static_cast<double>(brightest) / bright));
+  return static_cast<float>(std::round(stops * 10) / 10);
 }
 
 }  // namespace lightwell

@@ -11,7 +11,10 @@ float cos_edge(int row, int height) { return std::cos(pi * static_cast<float>(ro
 
 /// The solid angle of a pixel in a row of a latitude-longitude map.
 float solid_angle(int row, const RadianceImage& map) {
-  return 2 * pi / static_cast<float>(map.width) * (cos_edge(row, map.height) - cos_edge(row + 1, map.height));
+  // The difference of the edges' cosines as a product, which does not vanish near the poles.
+  const float half = pi / (2 * static_cast<float>(map.height));
+  const float difference = 2 * std::sin(static_cast<float>(2 * row + 1) * half) * std::sin(half);
+  return 2 * pi / static_cast<float>(map.width) * difference;
 }
 
 Vec3f pixel_radiance(const RadianceImage& map, size_t pixel) {

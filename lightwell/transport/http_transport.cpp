@@ -217,8 +217,10 @@ class HttpTransport final : public Transport {
   std::optional<TransportEvent> wait(double until) override {
     while (exchange_.events.empty()) {
       const double left = std::clamp(until - now(), 0.0, 3600.0);
-      const size_t ran = exchange_.io.run_one_for(
-          std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::duration<double>(left)));
+      // run_one_for() looks at nothing when no time is left, but what has come meanwhile is to be heard.
+      const size_t ran = left > 0 ? exchange_.io.run_one_for(std::chrono::duration_cast<std::chrono::microseconds>(
+                                        std::chrono::duration<double>(left)))
+                                  : exchange_.io.poll_one();
       if (ran == 0 && now() >= until) return std::nullopt;
     }
     TransportEvent event = std::move(exchange_.events.front());

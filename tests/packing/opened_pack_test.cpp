@@ -51,6 +51,44 @@ TEST(OpenedPack, RefusesStreamsThatThereAreNot) {
   }
 }
 
+// Adding to a document's members moves them: every texture of a streamed image says so, however many there are.
+TEST(OpenedPack, NamesAStreamInAllTexturesOfAnImage) {
+  Document document = sheet_document();
+  add_noise(document, 64);
+  for (int i = 1; i < 8; i++) document.json["textures"].push_back({{"source", 0}});
+  const Packed packed = pack(std::move(document));
+  EXPECT_EQ(open(packed.file).textures().size(), 8u);
+}
+
+// A lamp whose surface is smaller than a step of the lattice has none in the pack, and names no vertex of another.
+TEST(OpenedPack, ALampTooSmallForTheLatticeNamesNoSurface) {
+  Mesh mesh = painted_sheet(50);
+  const auto first = static_cast<uint32_t>(mesh.positions.size());
+  for (const Vec3f& p :
+       {Vec3f{{0.505f, 0.505f, 0.5f}}, Vec3f{{0.505001f, 0.505f, 0.5f}}, Vec3f{{0.505f, 0.505001f, 0.5f}}}) {
+    mesh.positions.push_back(p);
+    mesh.texcoords[0].push_back({});
+    mesh.colors.push_back(Vec4f::filled(1));
+    mesh.normals.push_back({{0, 0, 1}});
+  }
+  mesh.faces.push_back({first, first + 1, first + 2});
+  Document document = sheet_document(1);
+  const Json primitive = DocumentBuilder(document).primitive(mesh);
+  document.json["meshes"][0]["primitives"][0]["attributes"] = primitive["attributes"];
+  document.json["meshes"][0]["primitives"][0]["indices"] = primitive["indices"];
+  ClientLamp lamp;
+  lamp.kind = ClientLamp::Kind::rectangle;
+  lamp.luminaire = {.kind = LuminaireId::Kind::surface, .node = 0, .primitive = 0, .vertex = first};
+  const Packed packed = pack(std::move(document), {lamp});
+  const OpenedPack opened = open(packed.file);
+  const uint32_t vertices = opened.primitives().at(0).vertices;
+  const LuminaireId& id = opened.lamps().at(0).luminaire;
+  if (id.primitive >= 0)
+    EXPECT_LT(id.vertex, vertices);
+  else
+    EXPECT_EQ(id.node, -1);
+}
+
 // Whoever exports or renders a stranger's pack must not read files of his own into it.
 TEST(OpenedPack, RefusesOtherFiles) {
   const Packed packed = pack(sheet_document(50));

@@ -62,6 +62,13 @@ TEST(Compare, RefusesOtherSizes) {
   EXPECT_FALSE(compare(flat(0, 0, {}), flat(0, 0, {}), Metric::rmse));
 }
 
+TEST(Compare, RefusesPixelsThatAreNoNumbers) {
+  Picture picture = noise(4, 3, 1);
+  picture.pixels[7] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(compare(picture, noise(4, 3, 1), Metric::rmse));
+  EXPECT_FALSE(compare(noise(4, 3, 1), picture, Metric::flip));
+}
+
 TEST(Compare, KnowsItsMetricsByName) {
   EXPECT_EQ(metric_of("flip"), Metric::flip);
   EXPECT_EQ(metric_of("deltae"), Metric::deltae);

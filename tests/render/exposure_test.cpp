@@ -54,6 +54,10 @@ TEST(Exposure, IsANumberWhateverTheLightIs) {
   EXPECT_EQ(exposure_of_wall(0.8f, grid_of([](float) { return std::numeric_limits<float>::infinity(); })), 0);
 }
 
+TEST(Exposure, IsANumberForTheFaintestLight) {
+  EXPECT_TRUE(std::isfinite(exposure_of_wall(0.8f, grid_of([](float) { return 1e-41f; }))));
+}
+
 // Where half of the wall gets a thousand times the light, one half for the geometric mean would be 0.5 * sqrt(1000) for
 // the bright side. Its 0.8 * 1000 is kept at 1.5 instead.
 TEST(Exposure, KeepsTheBrightParts) {
