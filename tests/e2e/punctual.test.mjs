@@ -64,19 +64,29 @@ test('lights of the user’s own beside them fade as three.js has it', async (t)
   assert.deepEqual(errors, []);
 });
 
-/** One in each scene: `render` chooses among several at random, and the noise of that would hide what is compared. */
-const LAMPS = {
-  point: { lamp: { type: 'point', intensity: 0.5, range: 1.6, color: [1, 0.8, 0.6] }, at: [-0.3, 0.3, -0.2] },
-  spot: {
-    lamp: { type: 'spot', intensity: 2, range: 2.2, spot: { innerConeAngle: 0.1, outerConeAngle: 0.9 } },
-    at: [0.2, 0.2, 0.9],
+const spot = (intensity, range, innerConeAngle, outerConeAngle, at) => ({
+  lamp: { type: 'spot', intensity, range, spot: { innerConeAngle, outerConeAngle } },
+  at,
+});
+/** Of several `render` chooses one at random for each sample, the noise of which needs many samples. */
+const SCENES = {
+  'a point': {
+    lamps: [{ lamp: { type: 'point', intensity: 0.5, range: 1.6, color: [1, 0.8, 0.6] }, at: [-0.3, 0.3, -0.2] }],
+    size: [320, 180],
+    samples: 16,
+  },
+  'a spot': { lamps: [spot(2, 2.2, 0.1, 0.9, [0.2, 0.2, 0.9])], size: [320, 180], samples: 16 },
+  'several spots': {
+    lamps: [spot(2, 2.2, 0.1, 0.5, [0.4, 0.3, 0.9]), spot(2, 2.4, 0.2, 0.6, [-0.4, 0, 0.9]), spot(1, 2, 0, 0.9, [0, -0.3, 0.8])],
+    size: [200, 150],
+    samples: 2048,
   },
 };
 
-for (const [name, lamp] of Object.entries(LAMPS))
-  test(`direct light of a ${name} with a range looks as in lightwell render`, async (t) => {
+for (const [name, { lamps, size, samples }] of Object.entries(SCENES))
+  test(`direct light of ${name} with a range looks as in lightwell render`, async (t) => {
     const material = { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.7, 0.7, 0.7, 1] } };
-    const scene = writeScene(`${folder}/${name}.gltf`, [{ mesh: room(1), material }], [lamp]);
+    const scene = writeScene(`${folder}/${name}.gltf`, [{ mesh: room(1), material }], lamps);
     const gltf = JSON.parse(readFileSync(scene, 'utf8'));
     gltf.cameras = [{ type: 'perspective', perspective: { yfov: 1, znear: 0.01 } }];
     gltf.scenes[0].nodes.push(gltf.nodes.push({ camera: 0, translation: [0, 0, 0.95] }) - 1);
@@ -84,10 +94,11 @@ for (const [name, lamp] of Object.entries(LAMPS))
     const pack = bake(scene, `${folder}/${name}.lw.glb`);
     const routes = { query: '?light=direct', '/pack.lw.glb': pack };
     const { page, errors } = await openScript(t, 'tests/e2e/pages/lambert.ts', routes);
+    await page.setViewportSize({ width: size[0], height: size[1] });
     await complete(page);
     const url = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
     writeFileSync(`${folder}/page.png`, Buffer.from(url.split(',')[1], 'base64'));
-    const picture = ['--integrator', 'direct', '--tone', 'none', '--size', '320x180', '--spp', '16'];
+    const picture = ['--integrator', 'direct', '--tone', 'none', '--size', size.join('x'), '--spp', `${samples}`];
     lightwell('render', pack, '-o', `${folder}/render.png`, ...picture);
     const { mean, p95 } = JSON.parse(lightwell('diff', `${folder}/page.png`, `${folder}/render.png`, '--metric', 'deltae', '--json'));
     assert.ok(mean <= MEAN && p95 <= P95, `mean ${mean}, 95th percentile ${p95}`);
