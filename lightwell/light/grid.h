@@ -58,8 +58,9 @@ struct Moments {
 };
 
 /// The irradiance vector grid of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex
-/// Geometry and Complex Lighting", Web3D 2008) and R09 (Pacanowski et al., "Volumetric Vector-Based Representation for
-/// Indirect Illumination Caching", INRIA RR-6983, 2009), stored as moments, with the validity of each node.
+/// Geometry and Complex Lighting", Web3D 2008, section 3) and R09 (Pacanowski et al., "Volumetric Vector-Based
+/// Representation for Indirect Illumination Caching", INRIA RR-6983, 2009), stored as moments, with the validity of
+/// each node.
 struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()

@@ -19,7 +19,7 @@ enum class Fill : uint8_t {
 /// field stays exactly constant, and the result is the same on every machine. Takes linear time for any shape.
 ///
 /// 3D push-pull as in S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex Geometry and
-/// Complex Lighting", Web3D 2008; Figures 2 and 7): pull averages the known values of 2x2x2 nodes
+/// Complex Lighting", Web3D 2008; section 4.1, Figures 2 and 7): pull averages the known values of 2x2x2 nodes
 /// into a coarser level, up to a single value; push fills unknown nodes by trilinear interpolation of the coarser
 /// level. Invalid nodes count with node_weight, so that their fill spreads only where nothing better is known. An
 /// unknown node becomes valid when the validity interpolated in the same way is at least one half. With no node known,

@@ -16,7 +16,8 @@
 namespace lightwell {
 
 /// The codec number of this header's format: records of moments in the order of slices of S08 (Pacanowski, Granier et
-/// al., "Efficient Streaming of 3D Scenes with Complex Geometry and Complex Lighting", Web3D 2008; see light_order).
+/// al., "Efficient Streaming of 3D Scenes with Complex Geometry and Complex Lighting", Web3D 2008, section 4.1; see
+/// light_order).
 inline constexpr uint8_t light_codec_slices = 0;
 
 /// Maximum number of nodes per byte of a stream, which bounds a decoder's memory, 200 bytes a node, by the stream's

@@ -24,9 +24,9 @@ struct LightOrder {
 };
 
 /// The stratified order of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex Geometry and
-/// Complex Lighting", Web3D 2008): the grid is cut into slices across its longest axis (the first of several), and
-/// every bundle holds nodes_per_slice nodes of each slice, or those that are left, at places drawn without replacement
-/// from Random(seed, slice).
+/// Complex Lighting", Web3D 2008, section 4.1): the grid is cut into slices across its longest axis (the first of
+/// several), and every bundle holds nodes_per_slice nodes of each slice, or those that are left, at places drawn
+/// without replacement from Random(seed, slice).
 LightOrder light_order(const GridShape& shape, uint64_t seed, int nodes_per_slice);
 
 /// The eight corner nodes of a grid, x fastest.
