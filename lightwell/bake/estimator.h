@@ -7,8 +7,16 @@
 
 #include "lightwell/bake/node_space.h"
 #include "lightwell/light/grid.h"
+#include "lightwell/trace/surface_cache.h"
 
 namespace lightwell {
+
+/// What is known of a scene before its light is estimated.
+struct BakeScene {
+  const World& world;
+  const FreeSpace& space;
+  const SurfaceCache& cache;
+};
 
 /// An estimator's sum over some of its samples. Sums of disjoint samples add up to the same bits in any order,
 /// whichever threads, runs or machines made them: they hold integers or complete nodes.
@@ -21,9 +29,9 @@ class PartialLight {
 
 /// The light at the nodes of a grid.
 struct NodeLight {
-  std::vector<Moments> moments;  ///< W/m2; zeros at invalid nodes
-  float noise = 0;               ///< root mean square noise, relative to the root mean square of the light
-  uint64_t rays = 0;             ///< that were traced
+  std::vector<Moments> moments;  ///< W/m2
+  std::vector<float> insides;    ///< share of a node's surroundings that is inside of solids; 1: it stands in one
+  uint64_t rays = 0;             ///< that it took
 };
 
 /// Estimates the light at the nodes of a grid from samples that do not depend on each other: photons or nodes. Threads
@@ -41,8 +49,10 @@ class Estimator {
   virtual size_t partial_bytes() const = 0;
   /// Adds the samples begin ... end-1 to a sum of this estimator.
   virtual void add(uint64_t begin, uint64_t end, PartialLight& sum) const = 0;
-  /// The light at the nodes, from the sum of all samples.
-  virtual NodeLight finish(const PartialLight& whole, const NodeSpace& space) const = 0;
+  /// How many samples a thread takes at a time.
+  virtual size_t samples_at_a_time() const = 0;
+  /// The light that the sum of all samples stands for.
+  virtual NodeLight finish(const PartialLight& whole) const = 0;
 };
 
 /// Options of an estimator.
@@ -51,14 +61,15 @@ struct EstimatorOptions {
   uint64_t seed = 1;
   /// The luminaires whose direct light goes into the grid as well.
   LuminaireSet contained;
+  int threads = 0;  ///< 0: all processors
 };
 
 /// A row of the table of estimators. A new estimator is a new file and a row.
 struct EstimatorKind {
   const char* name;
   const char* help;  ///< a few words for the command line
-  /// World and options must outlive the estimator.
-  std::unique_ptr<Estimator> (*make)(const World& world, const GridShape& shape, const EstimatorOptions& options);
+  /// Scene and options must outlive the estimator.
+  std::unique_ptr<Estimator> (*make)(const BakeScene& scene, const GridShape& shape, const EstimatorOptions& options);
 };
 
 /// All estimators, the default one first.

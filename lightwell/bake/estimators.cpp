@@ -2,12 +2,14 @@
 #include <array>
 
 #include "lightwell/bake/estimator.h"
+#include "lightwell/bake/gather_estimator.h"
 #include "lightwell/bake/track_estimator.h"
 
 namespace lightwell {
 
 std::span<const EstimatorKind> estimators() {
   static constexpr std::array table{
+      EstimatorKind{"gather", "rays from the nodes to surfaces whose light is known", make_gather_estimator},
       EstimatorKind{"tracks", "the lengths of photons' flights through the nodes' boxes", make_track_estimator},
   };
   return table;

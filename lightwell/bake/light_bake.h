@@ -11,7 +11,6 @@ struct LightBakeOptions {
   int nodes = 32;  ///< on the grid's longest axis, at least 2
   const EstimatorKind* method = &estimators().front();
   EstimatorOptions estimator;
-  int threads = 0;  ///< 0: all processors
 };
 
 struct LightBakeStatistics {

@@ -9,6 +9,11 @@ namespace {
 
 /// Least volume of a solid, relative to a ball of the same area: a sheet has 0, a pane 1 m square and 4 mm thick 1.5 %.
 constexpr double least_volume = 1e-3;
+/// What a scan's holes may lack of its surface.
+constexpr double most_missing = 0.05;
+/// The most light on the back, relative to the front, with which a piece still has a dark inside: of one that is closed
+/// but for cracks, and of one that may have holes, through which some light comes in and is reflected.
+constexpr double most_light_inside = 1e-3, most_light_through_holes = 0.12;
 /// Fewer hits cannot show a share of one in a thousand.
 constexpr uint64_t least_hits = 1000;
 /// Enough hits to tell a share of one in a thousand from two in a thousand, by four standard deviations.
@@ -32,6 +37,10 @@ Extent& operator+=(Extent& sum, const std::array<Vec3d, 3>& corners) {
   sum.moment += dot(a, normal) / 3;
   return sum;
 }
+
+/// Whether little of a closed surface is missing: the area vectors of a closed one add up to nothing, those of the rest
+/// to what it lacks. An open tube passes too; its back is lit.
+bool nearly_closed(const Extent& piece) { return length(piece.normal_sum) <= most_missing * piece.area; }
 
 /// Whether the volume between the surface and its own centre is large enough. For an open surface, which has no volume
 /// of its own, measuring from the centre makes the result independent of its place.
@@ -65,7 +74,10 @@ void Solids::add_pieces(const Mesh& mesh, const std::vector<uint32_t>& of_faces)
     extents[of_faces[i]] += {mesh.positions[face[0]].cast<double>(), mesh.positions[face[1]].cast<double>(),
                              mesh.positions[face[2]].cast<double>()};
   }
-  for (const Extent& extent : extents) encloses_.push_back(encloses_volume(extent));
+  for (const Extent& extent : extents) {
+    encloses_.push_back(encloses_volume(extent));
+    most_inside_.push_back(nearly_closed(extent) ? most_light_through_holes : most_light_inside);
+  }
 }
 
 Solids::Hits& Solids::Hits::operator+=(const Hits& other) {
@@ -99,7 +111,8 @@ bool Solids::settled(const Hits& hits) const {
 
 void Solids::decide(const Hits& hits) {
   for (size_t i = 0; i < solid_.size(); i++)
-    solid_[i] = encloses_[i] && hits.front[i] >= least_hits && hits.back[i] * 1000 <= hits.front[i];
+    solid_[i] = encloses_[i] && hits.front[i] >= least_hits &&
+                static_cast<double>(hits.back[i]) <= most_inside_[i] * static_cast<double>(hits.front[i]);
 }
 
 bool Solids::from_inside(const Hit& hit) const {

@@ -41,7 +41,8 @@ class Solids {
   std::vector<std::vector<uint32_t>> pieces_of_faces_;  // of each primitive; empty unless double-sided
   std::vector<size_t> first_piece_;                     // of each primitive
   std::vector<uint8_t> encloses_;                       // of each piece: whether it has an inside
-  std::vector<uint8_t> solid_;                          // of each piece
+  std::vector<double> most_inside_;  // of each piece: light on the back of a solid, relative to the front
+  std::vector<uint8_t> solid_;       // of each piece
 };
 
 }  // namespace lightwell

@@ -7,6 +7,8 @@
 namespace lightwell {
 namespace {
 
+/// In a coarser grid two layers would be a large part of all nodes.
+constexpr int least_with_layers = 10;
 constexpr int lines = 24;                            // probe lines along an axis, counted on each of the two others
 constexpr int most_walls = 64;                       // on a line
 constexpr size_t worth_a_node = lines * lines / 20;  // walls that must gain a node before an axis gets more nodes
@@ -61,8 +63,7 @@ size_t missed(const std::vector<Wall>& walls, float cell) {
 
 }  // namespace
 
-GridShape grid_of_walls(const World& world, int longest) {
-  const Box3f& region = world.lights().region();
+GridShape grid_of_walls(const World& world, const Box3f& region, int longest) {
   GridShape shape = GridShape::over(region, longest);
   const Vec3f size = shape.hi() - shape.lo;
   for (int axis = 0; axis < 3; axis++) {
@@ -79,6 +80,15 @@ GridShape grid_of_walls(const World& world, int longest) {
     shape.cell[axis] = size[axis] / static_cast<float>(best - 1);
   }
   return shape;
+}
+
+std::vector<GridShape> possible_grids(const World& world, int longest) {
+  std::vector<GridShape> grids{grid_of_walls(world, world.lights().region(), longest)};
+  if (world.lights().environment().black() || longest < least_with_layers) return grids;
+  GridShape& layered = grids.emplace_back(grid_of_walls(world, world.surfaces().bounds(), longest - 2));
+  layered.lo -= layered.cell;
+  layered.nodes += Vec3i::filled(2);
+  return grids;
 }
 
 bool is_in_thin_wall(const TraceScene& scene, const FreeSpace& space, const GridShape& shape, size_t node) {

@@ -43,7 +43,7 @@ void add_environment_option(CLI::App& command, std::string& environment) {
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help) {
   command.add_option("scene", options.path, help)->required()->type_name("");
   add_grid_option(command, options.nodes);
-  add_count(command, "--photons", options.photons, "Photons to trace into the grid: 5000, 200k, 8M, 1G",
+  add_count(command, "--photons", options.photons, "Photons of --method tracks: 5000, 200k, 8M, 1G",
             "a count, such as 5000, 200k, 8M or 1G")
       ->default_str("8M");
   add_row_choice(command, "--method", options.method, estimators());

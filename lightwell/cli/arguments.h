@@ -23,7 +23,7 @@ struct SceneOptions {
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
   LightBakeOptions light(const LuminaireSet& contained) const {
-    return {nodes, method, {photons, import.seed, contained}, threads};
+    return {nodes, method, {photons, import.seed, contained, threads}};
   }
 };
 

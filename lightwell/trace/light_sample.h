@@ -23,4 +23,8 @@ struct Arrival {
   int luminaire = 0;
 };
 
+/// True when a surface stands between a point of a surface, of unit normal `normal`, and the source.
+bool hidden(const TraceScene& surfaces, const Vec3f& position, const Vec3f& normal, const Arrival& arrival,
+            Random& random);
+
 }  // namespace lightwell

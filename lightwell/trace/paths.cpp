@@ -44,18 +44,8 @@ class Path {
   }
 
   bool hidden(const Arrival& arrival) {
-    Ray ray{.origin = surfaces_.leave(vertex_.position, vertex_.normal), .direction = arrival.direction};
-    if (std::isfinite(arrival.distance)) {
-      // The ray ends just short of the source, measured from its offset origin.
-      const Vec3f source = vertex_.position + arrival.direction * arrival.distance;
-      const Vec3f way = source - ray.origin;
-      const float distance = length(way);
-      if (distance == 0) return false;
-      ray.direction = way / distance;
-      ray.far = distance * (1 - 1e-4f);
-    }
     rays_++;
-    return surfaces_.occluded(ray, random_);
+    return lightwell::hidden(surfaces_, vertex_.position, vertex_.normal, arrival, random_);
   }
 
   /// Samples a direction of reflection and follows it to the next vertex; false where the path ends.

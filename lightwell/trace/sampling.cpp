@@ -26,6 +26,26 @@ Vec3f sample_sphere(Random& random) {
   return {{radius * std::cos(angle), radius * std::sin(angle), z}};
 }
 
+namespace {
+
+/// The direction of height z on turn i of a Fibonacci spiral.
+Vec3f on_spiral(float z, size_t i, float v) {
+  const float turn = std::numbers::phi_v<float> * static_cast<float>(i) + v;
+  const float azimuth = 2 * pi * (turn - std::floor(turn));
+  const float r = std::sqrt(std::max(0.0f, 1 - z * z));
+  return {{r * std::cos(azimuth), r * std::sin(azimuth), z}};
+}
+
+}  // namespace
+
+Vec3f sphere_direction(size_t i, size_t count, float u, float v) {
+  return on_spiral(1 - 2 * (static_cast<float>(i) + u) / static_cast<float>(count), i, v);
+}
+
+Vec3f cosine_direction(size_t i, size_t count, float u, float v) {
+  return on_spiral(std::sqrt(1 - (static_cast<float>(i) + u) / static_cast<float>(count)), i, v);
+}
+
 Vec3f sample_disc(Random& random) {
   // Rejection from the square is cheaper than sine and cosine.
   for (;;) {

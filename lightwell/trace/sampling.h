@@ -30,6 +30,13 @@ Vec3f sample_cosine_hemisphere(const Vec3f& normal, Random& random);
 /// A uniform direction.
 Vec3f sample_sphere(Random& random);
 
+/// Direction i of `count` that are spread evenly over the sphere along a Fibonacci spiral; u and v in [0, 1) shift and
+/// turn it.
+Vec3f sphere_direction(size_t i, size_t count, float u, float v);
+
+/// The same over the hemisphere round z, with density cos / pi.
+Vec3f cosine_direction(size_t i, size_t count, float u, float v);
+
 /// A uniform point of the unit disc, z = 0.
 Vec3f sample_disc(Random& random);
 

@@ -63,20 +63,27 @@ Deviation deviation(const LightGrid& grid, float expected) {
   return {d.mean / count, std::sqrt(d.rms / count)};
 }
 
+LightBakeOptions by(const EstimatorKind& method, int nodes, uint64_t photons) {
+  LightBakeOptions o = options(nodes, photons);
+  o.method = &method;
+  return o;
+}
+
 // In a closed box of albedo rho whose walls shine with Le the indirect irradiance is pi Le rho / (1 - rho) for any
-// point and normal. The noise of a node is what the bake says it is: twice that is never reached by the mean square
-// over 500 nodes.
+// point and normal, whichever way it is estimated.
 TEST(BakeLight, IsTheFurnacesClosedForm) {
-  for (const float rho : {0.3f, 0.7f}) {
-    const Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1.5f, 3}}), lambertian(rho, 2));
-    const Baked baked = bake(*world_of(scene), options(10, 200000));
-    const Deviation d = deviation(baked.grid, 2 * pi * rho / (1 - rho));
-    EXPECT_LT(d.rms, 2 * static_cast<double>(baked.statistics.estimated_error));
-    // Flights per photon scatter by sqrt(rho) / (1 - rho) of a mean of rho / (1 - rho): 0.4 % of 200000; four times
-    // that.
-    EXPECT_NEAR(d.mean, 0, 0.016);
-    EXPECT_EQ(baked.statistics.invalid_nodes, 0u);
-  }
+  for (const EstimatorKind& method : estimators())
+    for (const float rho : {0.3f, 0.7f}) {
+      const Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1.5f, 3}}), lambertian(rho, 2));
+      const Baked baked = bake(*world_of(scene), by(method, 10, 200000));
+      const Deviation d = deviation(baked.grid, 2 * pi * rho / (1 - rho));
+      // 200000 photons leave some 5 % of noise in a box of 0.04 m3; 256 rays 2 %.
+      EXPECT_LT(d.rms, 0.1) << method.name;
+      // Flights per photon scatter by sqrt(rho) / (1 - rho) of a mean of rho / (1 - rho): 0.4 % of 200000; four times
+      // that.
+      EXPECT_NEAR(d.mean, 0, 0.016) << method.name;
+      EXPECT_EQ(baked.statistics.invalid_nodes, 0u) << method.name;
+    }
 }
 
 // A lamp at the centre of a sphere: all points of the wall are equally bright, so the indirect irradiance is the same
@@ -85,14 +92,16 @@ TEST(BakeLight, IsTheFurnacesClosedForm) {
 TEST(BakeLight, IsTheIntegratingSpheresClosedForm) {
   Scene scene = scene_of(sphere(1, 4), lambertian(0.6f));
   scene.lamps = {point_lamp({}, Vec3f::filled(3))};
-  const Baked baked = bake(*world_of(scene), options(12, 400000));
   const float expected = 3 * 4 * pi / (4 * pi) * 0.6f / 0.4f;
-  const Deviation d = deviation(baked.grid, expected);
-  EXPECT_GT(baked.statistics.invalid_nodes, 400u);
-  // The mesh's area is 0.5 % below the sphere's; a free share from 1000 points scatters by up to 1.5 % for its node.
-  EXPECT_NEAR(d.mean, 0, 0.02);
-  EXPECT_LT(d.rms, 1.5 * static_cast<double>(baked.statistics.estimated_error) + 0.02);
-  EXPECT_NEAR(baked.grid.irradiance({{0, 0.3f, 0.3f}}, {{0, 1, 0}})[1] / expected, 1, 0.06f);
+  for (const EstimatorKind& method : estimators()) {
+    const Baked baked = bake(*world_of(scene), by(method, 12, 400000));
+    const Deviation d = deviation(baked.grid, expected);
+    EXPECT_GT(baked.statistics.invalid_nodes, 400u);
+    // The mesh's area is 0.5 % below the sphere's; a free share from 1000 points scatters by up to 1.5 % for its node.
+    EXPECT_NEAR(d.mean, 0, 0.02) << method.name;
+    EXPECT_LT(d.rms, 0.1) << method.name;
+    EXPECT_NEAR(baked.grid.irradiance({{0, 0.3f, 0.3f}}, {{0, 1, 0}})[1] / expected, 1, 0.06f) << method.name;
+  }
 }
 
 TEST(BakeLight, GivesTheSameBytesForAnyNumberOfThreads) {
@@ -100,7 +109,7 @@ TEST(BakeLight, GivesTheSameBytesForAnyNumberOfThreads) {
   const auto world = world_of(scene);
   LightBakeOptions o = options(9, 20000);
   const auto bytes = [&](int threads) {
-    o.threads = threads;
+    o.estimator.threads = threads;
     const Baked baked = bake(*world, o);
     std::string all(sizeof(Moments) * baked.grid.moments.size(), '\0');
     std::memcpy(all.data(), baked.grid.moments.data(), all.size());
@@ -155,12 +164,13 @@ TEST(BakeLight, RefusesAGridThatNoPackHolds) {
 }
 
 // A thin wall that shows its back to one side: there is the inside of a solid, where what the wall reflects is not
-// counted. Nothing else reflects here.
-TEST(BakeLight, IgnoresTheLightOfBacks) {
+// counted by photons' tracks. Nothing else reflects here.
+TEST(BakeLight, TracksIgnoreTheLightOfBacks) {
+  ASSERT_STREQ(estimators().back().name, "tracks");
   Scene scene = scene_of(room({{0, 0, 0}}, {{2, 2, 2}}), lambertian(0, 1));
   add(scene, quad({{1, 0, 0}}, {{0, 2, 0}}, {{0, 0, 2}}), lambertian(0.5f));
   const auto sides = [&] {
-    const LightGrid grid = bake(*world_of(scene), options(6, 50000)).grid;  // nodes at x = 0.8 and 1.2
+    const LightGrid grid = bake(*world_of(scene), by(estimators().back(), 6, 50000)).grid;  // nodes at x = 0.8 and 1.2
     const size_t behind = grid.shape.index({{2, 3, 3}}), before = grid.shape.index({{3, 3, 3}});
     return std::pair(grid.moments[behind].m[0][0], grid.moments[before].m[1][0]);
   };
@@ -230,19 +240,57 @@ TruthScore compare(const LightGrid& grid, const std::string& name) {
   return score(truth, computed);
 }
 
-// The grid against the independent path tracer, at a fraction of the photons that the figures of docs/results are
-// measured with. Blur by the boxes is 1 to 4 % (the most in the Cornell box, light from whose open front changes
-// quickly); to it comes the noise that the bake states, of which a lookup among eight nodes keeps at most all.
+// The grid against the independent path tracer. The Cornell box, light from whose open front changes quickly, errs by
+// 3.0 %, of which 2.2 are what nine moments cannot hold; the others by less.
 TEST(BakeLight, AgreesWithTheTruth) {
   for (const std::string name : {"a_cornell", "b_tworooms", "c_furnace", "d_blob"}) {
     const Scene scene = truth_scene(name);
     const Baked baked = bake(*world_of(scene), options(32, 250000));
-    const double noise = static_cast<double>(baked.statistics.estimated_error);
     for (const std::string points : {".free", ".surf"}) {
       const TruthScore score = compare(baked.grid, name + points + ".indirect");
-      EXPECT_LT(score.rms, 0.05 + noise) << name << points;
-      EXPECT_NEAR(score.bias, 0, 0.015 + noise / 4) << name << points;
+      EXPECT_LT(score.rms, 0.035) << name << points;
+      EXPECT_NEAR(score.bias, 0, 0.01) << name << points;
+      // What the bake says of itself is measured on surfaces.
+      if (points == ".surf" && score.rms > 0.01) {
+        EXPECT_GT(static_cast<double>(baked.statistics.estimated_error), 0.6 * score.rms) << name;
+        EXPECT_LT(static_cast<double>(baked.statistics.estimated_error), 2.5 * score.rms) << name;
+      }
     }
+  }
+}
+
+// Photons' tracks at a fraction of the photons that figures are measured with: 1 to 4 % of blur by the boxes, and
+// noise.
+TEST(BakeLight, TracksAgreeWithTheTruth) {
+  for (const std::string name : {"a_cornell", "b_tworooms", "d_blob"}) {
+    const Scene scene = truth_scene(name);
+    const Baked baked = bake(*world_of(scene), by(estimators().back(), 32, 250000));
+    for (const std::string points : {".free", ".surf"}) {
+      const TruthScore score = compare(baked.grid, name + points + ".indirect");
+      EXPECT_LT(score.rms, 0.18) << name << points;
+      EXPECT_NEAR(score.bias, 0, 0.03) << name << points;
+    }
+  }
+}
+
+// A scan with a hole in its bottom, declared double-sided as PLY files are, under a sky: its inside is known.
+TEST(BakeLight, KnowsTheInsideOfAScanWithAHole) {
+  Mesh scan = turned(sphere(1, 4));
+  std::erase_if(scan.faces, [&](const Face& face) { return scan.positions[face[0]][1] < -0.95f; });  // 2 % of its area
+  Scene scene = scene_of(scan, lambertian(0.7f));
+  scene.materials.back().double_sided = true;
+  scene.environment.radiance = Vec3f::filled(1);
+  LightBakeOptions o = options(16, 300000);
+  o.estimator.contained = luminaires({1});
+  const auto world = world_of(scene);
+  const Baked baked = bake(*world, o);
+  EXPECT_GT(baked.statistics.invalid_nodes, 300u);
+  for (uint64_t i = 0; i < 100; i++) {
+    Random random(1, i);
+    const Vec3f normal = sample_sphere(random);
+    if (normal[1] < -0.7f) continue;  // near the hole light passes
+    // Where the sky alone is seen, pi; the whole sphere sees half of it or more from anywhere on its outside.
+    EXPECT_NEAR(baked.grid.irradiance(normal * 1.001f, normal)[0] / pi, 1, 0.05f);
   }
 }
 

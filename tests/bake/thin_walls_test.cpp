@@ -32,7 +32,7 @@ LightGrid baked(const Scene& scene, int nodes) {
 TEST(ThinWalls, GetANodeInside) {
   const Scene scene = two_closed_rooms();
   const auto world = world_of(scene);
-  const GridShape shape = grid_of_walls(*world, 16);
+  const GridShape shape = grid_of_walls(*world, world->lights().region(), 16);
   EXPECT_GT(shape.nodes[0], 16);
   EXPECT_LE(shape.nodes[0], 18);
   bool inside = false;
@@ -52,7 +52,8 @@ TEST(ThinWalls, LeaveOtherGridsAlone) {
   const Scene scene = scene_of(room({{-4, 0, 0}}, {{4.2f, 3, 4}}), lambertian(0.5f, 1));
   const auto world = world_of(scene);
   for (const int nodes : {2, 5, 16, 32})
-    EXPECT_EQ(grid_of_walls(*world, nodes).nodes, GridShape::over(world->lights().region(), nodes).nodes);
+    EXPECT_EQ(grid_of_walls(*world, world->lights().region(), nodes).nodes,
+              GridShape::over(world->lights().region(), nodes).nodes);
 }
 
 // A pack holds 256 nodes an axis and 2^22 in all; what walls add stays within.
@@ -60,7 +61,8 @@ TEST(ThinWalls, StayWithinWhatAPackHolds) {
   const Scene scene = two_closed_rooms();
   const auto world = world_of(scene);
   for (const int nodes : {200, 240, 256}) {
-    const GridShape plain = GridShape::over(world->lights().region(), nodes), shape = grid_of_walls(*world, nodes);
+    const GridShape plain = GridShape::over(world->lights().region(), nodes),
+                    shape = grid_of_walls(*world, world->lights().region(), nodes);
     for (int axis = 0; axis < 3; axis++) EXPECT_LE(shape.nodes[axis], 256);
     EXPECT_LE(shape.count(), std::max(plain.count(), LightLayout::most_nodes));
   }

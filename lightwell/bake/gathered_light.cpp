@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/gathered_light.h"
+
+namespace lightwell {
+namespace {
+
+/// Samples of the contained luminaires at a place; rays alone find only large ones.
+constexpr int luminaire_samples = 64;
+
+/// Adds radiance from a direction, times the solid angle that it stands for.
+void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
+  const auto sign = [&](int a) { return w[a] < 0 ? -1.0f : 1.0f; };
+  const auto mixed = [&](int a, int b) { return radiance * ((sign(a) * w[b] + sign(b) * w[a]) / 2); };
+  for (int a = 0; a < 3; a++) moments.m[static_cast<size_t>(2 * a + (w[a] < 0))] += radiance * std::abs(w[a]);
+  moments.m[6] += mixed(0, 1);
+  moments.m[7] += mixed(0, 2);
+  moments.m[8] += mixed(1, 2);
+}
+
+}  // namespace
+
+Vec3f viewpoint(const World& world, const GridShape& shape, size_t node) {
+  constexpr float inset = 0.1f;
+  const Box3f& box = world.surfaces().bounds();
+  Vec3f position = shape.position(shape.node(node));
+  for (int a = 0; a < 3; a++) {
+    const float margin = inset * shape.cell[a];
+    if (std::abs(position[a] - box.lo[a]) < margin) position[a] = box.lo[a] + margin;
+    if (std::abs(position[a] - box.hi[a]) < margin) position[a] = box.hi[a] - margin;
+  }
+  return position;
+}
+
+GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, int rays, Random& random) const {
+  Surroundings found;
+  const float shift = random.uniform(), turn = random.uniform();
+  const float solid_angle = 4 * pi / static_cast<float>(rays);
+  int insides = 0;
+  for (int i = 0; i < rays; i++) {
+    const Vec3f direction = sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
+    const Gathering gathering = gather(world_, {position, direction}, random);
+    found.rays += static_cast<uint64_t>(gathering.rays);
+    insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
+    const Vec3f radiance = cache_.reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
+    add_radiance(found.moments, direction, radiance * solid_angle);
+  }
+  found.insides = static_cast<float>(insides) / static_cast<float>(rays);
+  found.rays += sample_luminaires(position, {}, random, [&](const Arrival& arrival) {
+    const float weight =
+        arrival.extended ? power_heuristic(luminaire_samples * arrival.density, 1 / solid_angle) : 1.0f;
+    add_radiance(found.moments, arrival.direction, arrival.radiance * (weight / (luminaire_samples * arrival.density)));
+  });
+  return found;
+}
+
+Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random) const {
+  Vec3f sum{};
+  const Frame frame(normal);
+  const float shift = random.uniform(), turn = random.uniform();
+  const float n = static_cast<float>(rays);
+  for (int i = 0; i < rays; i++) {
+    const Vec3f up = cosine_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
+    const Gathering gathering = gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, random);
+    const Vec3f direction = frame.to_world(up);
+    sum += (cache_.reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
+  }
+  sample_luminaires(position, normal, random, [&](const Arrival& arrival) {
+    const float cosine = dot(normal, arrival.direction);
+    if (cosine <= 0) return;
+    const float weight =
+        arrival.extended ? power_heuristic(luminaire_samples * arrival.density, n * cosine / pi) : 1.0f;
+    sum += arrival.radiance * (cosine * weight / (luminaire_samples * arrival.density));
+  });
+  return sum;
+}
+
+Vec3f GatheredLight::emitted(const Vec3f& position, const Vec3f& direction, const Gathering& gathering,
+                             float density) const {
+  if (!contained_.contains(gathering.luminaire)) return {};
+  const Lights& lights = world_.lights();
+  const float of_samples =
+      gathering.meets_surface ? lights.density(position, gathering.first) : lights.environment_density(direction);
+  return gathering.emitted * power_heuristic(density, luminaire_samples * of_samples);
+}
+
+/// Calls add(arrival) for the samples whose light arrives; gives the number of rays.
+template <typename Add>
+uint64_t GatheredLight::sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random,
+                                          const Add& add) const {
+  if (contained_ == LuminaireSet()) return 0;
+  uint64_t rays = 0;
+  for (int i = 0; i < luminaire_samples; i++) {
+    const Arrival arrival = world_.lights().sample(position, random);
+    if (!contained_.contains(arrival.luminaire) || max_component(arrival.radiance) <= 0) continue;
+    rays++;
+    if (!hidden(world_.surfaces(), position, normal, arrival, random)) add(arrival);
+  }
+  return rays;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lightwell/bake/free_space.h"
+#include "lightwell/light/grid.h"
+#include "lightwell/trace/luminaire.h"
+#include "lightwell/trace/surface_cache.h"
+
+namespace lightwell {
+
+/// The light of places, gathered by rays whose ends a surface cache lights: all that has been reflected, and the direct
+/// light of the luminaires that a grid contains. Threads may share it.
+class GatheredLight {
+ public:
+  /// All arguments must outlive this.
+  GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache, const LuminaireSet& contained)
+      : world_(world), space_(space), cache_(cache), contained_(contained) {}
+
+  /// What rays in all directions find.
+  struct Surroundings {
+    Moments moments;    ///< W/m2
+    float insides = 0;  ///< share of the rays that met the inside of a solid
+    uint64_t rays = 0;
+  };
+  Surroundings around(const Vec3f& position, int rays, Random& random) const;
+
+  /// The irradiance of a surface, W/m2.
+  Vec3f irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random) const;
+
+ private:
+  /// The radiance that the contained luminaires send straight along a ray, weighted beside samples of the luminaires;
+  /// `density` is that of the rays, 1/sr.
+  Vec3f emitted(const Vec3f& position, const Vec3f& direction, const Gathering& gathering, float density) const;
+  template <typename Add>
+  uint64_t sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random, const Add& add) const;
+
+  const World& world_;
+  const FreeSpace& space_;
+  const SurfaceCache& cache_;
+  const LuminaireSet& contained_;
+};
+
+/// Where the light of a node is looked for. A node on a face of the scene's box, where walls stand, is moved inwards by
+/// a tenth of a cell: closer to a wall it would see little else.
+Vec3f viewpoint(const World& world, const GridShape& shape, size_t node);
+
+}  // namespace lightwell

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/light_error.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "lightwell/base/parallel.h"
+#include "lightwell/trace/sampling.h"
+
+namespace lightwell {
+namespace {
+
+/// Of the scene's diagonal: how far off the surface points are looked up.
+constexpr float off_surface = 2e-4f;
+constexpr size_t point_count = 500;
+/// Of what a tenth of all points have at least: places that are darker lie in gaps that nobody sees.
+constexpr float least_lit = 0.03f;
+/// Two sets a point: their difference tells their noise.
+constexpr int rays_a_set = 512;
+
+/// All faces that are traced, chosen by area.
+class Surfaces {
+ public:
+  explicit Surfaces(const TraceScene& scene) : scene_(scene) {
+    std::vector<float> areas;
+    for (uint32_t i = 0; i < scene.scene().instances.size(); i++) {
+      first_.push_back(areas.size());
+      if (!scene.traced(i)) continue;
+      for (uint32_t face = 0; face < scene.mesh(i).faces.size(); face++) {
+        const auto [a, b, c] = scene.corners(i, face);
+        areas.push_back(length(cross(b - a, c - a)));
+      }
+    }
+    chosen_ = Distribution(areas);
+  }
+
+  bool empty() const { return chosen_.total() <= 0; }
+
+  /// A point and its normal.
+  std::pair<Vec3f, Vec3f> sample(Random& random) const {
+    const size_t number = chosen_.sample(random);
+    const auto after = std::upper_bound(first_.begin(), first_.end(), number);
+    const auto instance = static_cast<uint32_t>(after - first_.begin() - 1);
+    const auto face = static_cast<uint32_t>(number - first_[instance]);
+    const auto corners = scene_.corners(instance, face);
+    const auto [a, b, c] = corners;
+    const Vec2f uv = sample_triangle(random);
+    const Vec3f normal = scene_.face_normal(instance, corners);
+    const Vec3f point = a + (b - a) * uv[0] + (c - a) * uv[1];
+    return {point + normal * (off_surface * length(scene_.bounds().size())), normal};
+  }
+
+ private:
+  const TraceScene& scene_;
+  std::vector<size_t> first_;  // face of each instance
+  Distribution chosen_;
+};
+
+float brightness(const Vec3f& light) { return light[0] + light[1] + light[2]; }
+
+}  // namespace
+
+Result<TestPoints> TestPoints::gather(const World& world, const GatheredLight& light, uint64_t seed, int threads,
+                                      Progress& progress) {
+  TestPoints test;
+  const Surfaces surfaces(world.surfaces());
+  if (surfaces.empty()) return test;
+  test.points_.resize(point_count);
+  progress.stage("estimating the error", static_cast<double>(point_count), "points");
+  parallel_for(
+      point_count, 4, threads,
+      [&](size_t begin, size_t end, int) {
+        for (size_t i = begin; i < end; i++) {
+          Random random(seed, i);
+          Point& point = test.points_[i];
+          std::tie(point.position, point.normal) = surfaces.sample(random);
+          const Vec3f a = light.irradiance(point.position, point.normal, rays_a_set, random);
+          const Vec3f b = light.irradiance(point.position, point.normal, rays_a_set, random);
+          point.irradiance = (a + b) / 2.0f;
+          point.variance = (a - b) * (a - b) / 4.0f;
+        }
+      },
+      [&] { return progress.cancelled(); });
+  if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
+  std::vector<Point>& points = test.points_;
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return brightness(a.irradiance) < brightness(b.irradiance); });
+  const float least = least_lit * brightness(points[points.size() * 9 / 10].irradiance);
+  if (least > 0) std::erase_if(points, [&](const Point& point) { return !(brightness(point.irradiance) > least); });
+  return test;
+}
+
+float TestPoints::error(const LightGrid& grid) const {
+  double squares = 0, sum = 0;
+  for (const Point& point : points_) {
+    const Vec3f difference = grid.irradiance(point.position, point.normal) - point.irradiance;
+    squares += static_cast<double>(dot(difference, difference) - brightness(point.variance));
+    sum += static_cast<double>(brightness(point.irradiance));
+  }
+  const double count = 3 * static_cast<double>(points_.size());
+  if (points_.empty()) return 0;
+  const double size = sum > 0 ? sum / count : 1;
+  return static_cast<float>(std::sqrt(std::max(squares, 0.0) / count) / size);
+}
+
+float TestPoints::best_offset(LightGrid grid) const {
+  constexpr std::array offsets{0.25f, 0.15f, 0.35f, 0.5f};
+  float best = offsets.front(), least = std::numeric_limits<float>::infinity();
+  for (const float offset : offsets) {
+    grid.normal_offset = offset;
+    const float found = error(grid);
+    if (!(found < least)) continue;
+    least = found;
+    best = offset;
+  }
+  return best;
+}
+
+}  // namespace lightwell

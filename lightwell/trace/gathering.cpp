@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/gathering.h"
+
+namespace lightwell {
+namespace {
+
+/// Follows one ray from metal to metal.
+class Gatherer {
+ public:
+  Gatherer(const World& world, Random& random)
+      : surfaces_(world.surfaces()), lights_(world.lights()), random_(random) {}
+
+  Gathering follow(Ray ray) {
+    while (gathering_.diffuse_count < Gathering::most_diffuse) {
+      Hit hit;
+      gathering_.rays++;
+      const bool meets = surfaces_.intersect(ray, random_, hit);
+      if (gathering_.rays == 1) {
+        gathering_.meets_surface = meets;
+        gathering_.first = hit;
+      }
+      if (!meets) {
+        see(lights_.environment_luminaire(), lights_.environment().radiance(ray.direction),
+            [&] { return lights_.environment_density(ray.direction); });
+        break;
+      }
+      const Surface surface = surfaces_.surface(hit);
+      see(lights_.luminaire(hit), surfaces_.emission(hit, surface), [&] { return lights_.density(ray.origin, hit); });
+      gathering_.diffuse[gathering_.diffuse_count++] = {hit.position, hit.facing_normal(),
+                                                        throughput_ * surface.bsdf.diffuse};
+      if (!reflect(hit, surface.bsdf, ray)) break;
+      metals_++;
+    }
+    return gathering_;
+  }
+
+ private:
+  /// Light of a luminaire at the end of the ray. Behind a metal the luminaires have been sampled too, with `density`.
+  template <typename Density>
+  void see(int luminaire, const Vec3f& radiance, const Density& density) {
+    if (luminaire < 0 || max_component(radiance) <= 0) return;
+    if (metals_ == 0) {
+      gathering_.emitted = radiance;
+      gathering_.luminaire = luminaire;
+    } else {
+      gathering_.mirrored += throughput_ * radiance * power_heuristic(lobe_density_, density());
+    }
+  }
+
+  /// Turns the ray into one that a metal reflects; false when it ends.
+  bool reflect(const Hit& hit, const Bsdf& bsdf, Ray& ray) {
+    if (max_component(bsdf.metal) <= 0) return false;
+    const Bsdf metal{.metal = bsdf.metal, .metallic = bsdf.metallic, .roughness = bsdf.roughness};
+    const Vec3f normal = hit.facing_normal(), out = -ray.direction;
+    sample_lights(hit.position, normal, out, metal);
+    const Bsdf::Sample sample = metal.sample(normal, out, random_);
+    const float survival = std::min(1.0f, max_component(throughput_ * sample.weight));
+    if (survival <= 0 || random_.uniform() >= survival) return false;
+    throughput_ *= sample.weight / survival;
+    lobe_density_ = sample.density;
+    ray = {surfaces_.leave(hit.position, normal), sample.in};
+    return true;
+  }
+
+  void sample_lights(const Vec3f& position, const Vec3f& normal, const Vec3f& out, const Bsdf& metal) {
+    const Arrival arrival = lights_.sample(position, random_);
+    const float cosine = dot(normal, arrival.direction);
+    if (cosine <= 0 || max_component(arrival.radiance) <= 0) return;
+    const Vec3f value = metal.value(normal, out, arrival.direction);
+    gathering_.rays++;
+    if (max_component(value) <= 0 || hidden(surfaces_, position, normal, arrival, random_)) return;
+    const float weight =
+        arrival.extended ? power_heuristic(arrival.density, metal.density(normal, out, arrival.direction)) : 1.0f;
+    gathering_.mirrored += throughput_ * value * arrival.radiance * (cosine * weight / arrival.density);
+  }
+
+  const TraceScene& surfaces_;
+  const Lights& lights_;
+  Random& random_;
+  Gathering gathering_;
+  Vec3f throughput_ = Vec3f::filled(1);
+  float lobe_density_ = 0;  // with which the last metal chose the ray
+  int metals_ = 0;
+};
+
+}  // namespace
+
+Gathering gather(const World& world, Ray ray, Random& random) { return Gatherer(world, random).follow(ray); }
+
+}  // namespace lightwell

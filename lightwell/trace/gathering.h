@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "lightwell/trace/world.h"
+
+namespace lightwell {
+
+/// What a ray sees: the diffuse surfaces at its end, straight or by way of metals, whose own light is still to be found
+/// out; and light that is known.
+struct Gathering {
+  /// A point of a surface that reflects diffusely: it sends albedo / pi times its irradiance.
+  struct Diffuse {
+    Vec3f position{};
+    Vec3f facing{};  ///< unit normal on the side that is seen
+    Vec3f albedo{};  ///< less what metals on the way keep
+  };
+  static constexpr size_t most_diffuse = 8;
+
+  std::array<Diffuse, most_diffuse> diffuse;
+  size_t diffuse_count = 0;
+  Vec3f mirrored{};  ///< W/m2/sr, of luminaires by way of metals
+  Vec3f emitted{};   ///< W/m2/sr, of the luminaire that the ray meets first
+  int luminaire = -1;
+  bool meets_surface = false;
+  Hit first;  ///< where it does
+  int rays = 0;
+};
+
+/// Follows a ray. Metals are followed by one sample of their lobe each, and one of the luminaires, weighted by the
+/// power heuristic.
+Gathering gather(const World& world, Ray ray, Random& random);
+
+}  // namespace lightwell

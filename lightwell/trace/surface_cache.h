@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "lightwell/base/progress.h"
+#include "lightwell/trace/gathering.h"
+#include "lightwell/trace/surface_cells.h"
+
+namespace lightwell {
+
+struct SurfaceCacheOptions {
+  Box3f region;            ///< in and near which the cells have their size
+  float cell = 0.1f;       ///< metres
+  int samples = 32;        ///< of the light of a cell
+  size_t looks = 1 << 19;  ///< rays that look for cells from the viewpoints
+  uint64_t seed = 1;
+  int threads = 0;  ///< 0: all processors
+};
+
+/// The irradiance of a scene's surfaces, in cells of about one place and one facing. Only cells that can be seen exist:
+/// rays from viewpoints find them, and rays from those that are found find more, so that neither the number of
+/// triangles nor texture coordinates matter. Each cell's light is a sum over samples: light straight from luminaires is
+/// known, and what another cell reflects is a share of that one's irradiance. The sums are solved together, as
+/// radiosity is: all bounces at once, each ray traced once. Threads may share it.
+class SurfaceCache {
+ public:
+  /// The world must outlive the cache. The same for any number of threads. Fails when `progress` asks to stop.
+  static Result<SurfaceCache> build(const World& world, std::span<const Vec3f> viewpoints,
+                                    const SurfaceCacheOptions& options, Progress& progress);
+
+  /// The irradiance at a surface, W/m2, all light included. Where no ray came while the cache was built, that of the
+  /// cells around.
+  Vec3f irradiance(const Vec3f& position, const Vec3f& facing) const;
+  /// The radiance that a ray sees by reflection, W/m2/sr.
+  Vec3f reflected(const Gathering& gathering) const;
+
+  size_t cells() const { return irradiance_.size(); }
+  /// Rays that it took.
+  uint64_t rays() const { return rays_; }
+
+ private:
+  explicit SurfaceCache(const SurfaceCells& cells) : cells_(cells) {}
+  void add_parents();
+
+  SurfaceCells cells_;
+  std::unordered_map<uint64_t, uint32_t> numbers_;  // of cells, into irradiance_
+  std::vector<Vec3f> irradiance_;
+  std::unordered_map<uint64_t, Vec3f> parents_;  // mean irradiance of the cells in larger ones
+  uint64_t rays_ = 0;
+
+  friend class SurfaceCacheBuilder;
+};
+
+}  // namespace lightwell

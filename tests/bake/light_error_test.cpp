@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/light_error.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/trace/scenes.h"
+
+namespace lightwell {
+namespace {
+
+/// A furnace: its indirect irradiance is the same everywhere, pi Le rho / (1 - rho).
+struct Furnace {
+  Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1.5f, 3}}), lambertian(0.5f, 2));
+  std::unique_ptr<const World> world = world_of(scene);
+  Progress silent;
+  FreeSpace space = FreeSpace::survey(*world, {}, silent).value();
+  std::vector<Vec3f> middle{{{1, 0.7f, 1.5f}}};
+  SurfaceCache cache =
+      SurfaceCache::build(*world, middle, {.region = world->surfaces().bounds(), .cell = 0.2f, .samples = 256}, silent)
+          .value();
+  LuminaireSet none;
+  GatheredLight light{*world, space, cache, none};
+  float irradiance = 2 * pi;
+
+  /// A grid of so many times the right light, on its half of x < 1 and on the other.
+  LightGrid grid(float left, float right) const {
+    LightGrid grid;
+    grid.shape = GridShape::over(world->surfaces().bounds(), 31);
+    for (size_t i = 0; i < grid.shape.count(); i++) {
+      Moments moments;
+      const bool is_left = grid.shape.position(grid.shape.node(i))[0] < 1;
+      for (size_t k = 0; k < 6; k++) moments.m[k] = Vec3f::filled(irradiance * (is_left ? left : right));
+      grid.moments.push_back(moments);
+    }
+    grid.valid.assign(grid.shape.count(), 1);
+    return grid;
+  }
+};
+
+// The cells' noise, some 1.5 %, is what is left of a grid that is right.
+TEST(TestPoints, TellTheErrorOfAGrid) {
+  Furnace furnace;
+  const TestPoints test = TestPoints::gather(*furnace.world, furnace.light, 1, 0, furnace.silent).value();
+  EXPECT_LT(test.error(furnace.grid(1, 1)), 0.02f);
+  EXPECT_NEAR(test.error(furnace.grid(1.3f, 1.3f)), 0.3f, 0.02f);
+  // Half of the area errs by 40 %, the other half not at all.
+  EXPECT_NEAR(test.error(furnace.grid(1, 0.6f)), 0.4f * std::sqrt(0.5f), 0.03f);
+}
+
+TEST(TestPoints, AreTheSameForAnyNumberOfThreads) {
+  Furnace furnace;
+  const LightGrid grid = furnace.grid(1, 0.9f);
+  const auto error = [&](int threads) {
+    return TestPoints::gather(*furnace.world, furnace.light, 1, threads, furnace.silent).value().error(grid);
+  };
+  const float one = error(1);
+  EXPECT_EQ(error(2), one);
+  EXPECT_EQ(error(5), one);
+}
+
+TEST(TestPoints, StopWhenAsked) {
+  struct Impatient : Progress {
+    bool cancelled() const override { return true; }
+  } impatient;
+  Furnace furnace;
+  const auto test = TestPoints::gather(*furnace.world, furnace.light, 1, 0, impatient);
+  ASSERT_FALSE(test);
+  EXPECT_EQ(test.error().kind, ErrorKind::cancelled);
+}
+
+}  // namespace
+}  // namespace lightwell

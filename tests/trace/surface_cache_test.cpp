@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/surface_cache.h"
+
+#include <gtest/gtest.h>
+
+#include "lightwell/trace/paths.h"
+#include "tests/trace/scenes.h"
+
+namespace lightwell {
+namespace {
+
+SurfaceCache build(const World& world, const SurfaceCacheOptions& options, std::span<const Vec3f> viewpoints) {
+  Progress silent;
+  auto cache = SurfaceCache::build(world, viewpoints, options, silent);
+  LW_ASSERT(cache.has_value());
+  return std::move(*cache);
+}
+
+std::vector<Vec3f> viewpoints_in(const Box3f& box, int side) {
+  std::vector<Vec3f> all;
+  for (int i = 0; i < side * side * side; i++) {
+    const Vec3f part = (Vec3i{{i % side, i / side % side, i / side / side}}.cast<float>() + Vec3f::filled(0.5f)) /
+                       static_cast<float>(side);
+    all.push_back(box.lo + box.size() * part);
+  }
+  return all;
+}
+
+const Box3f box{{{0, 0, 0}}, {{2, 1.5f, 3}}};
+
+// In a closed box of albedo rho whose walls shine with Le the irradiance of each wall is pi Le / (1 - rho). A cell has
+// 64 samples of direct light, which scatters by about its own size where the walls are near: 1/8 of it, and the bounces
+// average over all cells.
+TEST(SurfaceCache, IsTheFurnacesClosedForm) {
+  for (const float rho : {0.3f, 0.9f}) {
+    const Scene scene = scene_of(room(box.lo, box.hi), lambertian(rho, 2));
+    const auto world = world_of(scene);
+    const auto views = viewpoints_in(box, 4);
+    const SurfaceCache cache = build(*world, {.region = box, .cell = 0.25f, .samples = 64}, views);
+    EXPECT_GT(cache.cells(), 100u);
+    double mean = 0;
+    const int points = 400;
+    for (uint64_t i = 0; i < points; i++) {
+      Random random(1, i);
+      const Vec3f floor = box.lo + box.size() * Vec3f{{random.uniform(), 0, random.uniform()}};
+      mean += static_cast<double>(cache.irradiance(floor, {{0, 1, 0}})[1] / (2 * pi / (1 - rho))) / points;
+    }
+    // 96 cells of floor, each 12 % off at most.
+    EXPECT_NEAR(mean, 1, 0.03);
+  }
+}
+
+// A furnished room with metal against the path tracer: the mean over the floor. Cells blur light, and lose none.
+TEST(SurfaceCache, AgreesWithPathTracing) {
+  Scene scene = scene_of(room(box.lo, box.hi), lambertian({{0.7f, 0.5f, 0.3f}}));
+  add(scene, block({{0.5f, 0.3f, 1}}, {{0.9f, 0.8f, 1.6f}}), lambertian(0.5f));
+  Material metal = lambertian(0.8f);
+  metal.metallic = 1;
+  metal.roughness = 0.4f;
+  add(scene, block({{1.3f, 0.2f, 1}}, {{1.7f, 0.6f, 1.6f}}), metal);
+  add(scene, quad({{0.6f, 1.49f, 0.6f}}, {{0.8f, 0, 0}}, {{0, 0, 0.8f}}), lambertian(0, 10));
+  scene.lamps = {point_lamp({{1, 1, 2.5f}}, {{1, 2, 3}})};
+  const auto world = world_of(scene);
+  const SurfaceCache cache = build(*world, {.region = box, .cell = 0.1f, .samples = 64}, viewpoints_in(box, 6));
+  const LuminaireSet none;
+  Vec3d cached{}, traced{};
+  for (uint64_t i = 0; i < 4000; i++) {
+    Random random(2, i);
+    const Vec3f floor = box.lo + box.size() * Vec3f{{random.uniform(), 0, random.uniform()}};
+    cached += cache.irradiance(floor, {{0, 1, 0}}).cast<double>();
+    DirectAndIndirect light(none);
+    trace_path(*world, Receiver::irradiance(floor, {{0, 1, 0}}), 64, random, light);
+    traced += (light.direct + light.indirect).cast<double>();
+  }
+  // A path scatters by about its own size: 1.6 % of 4000; twice that.
+  for (int c = 0; c < 3; c++) EXPECT_NEAR(cached[c] / traced[c], 1, 0.035);
+}
+
+TEST(SurfaceCache, IsTheSameForAnyNumberOfThreads) {
+  Scene scene = scene_of(room(box.lo, box.hi), lambertian(0.6f));
+  add(scene, sphere(0.4f, 3), lambertian(0.6f));
+  scene.lamps = {point_lamp({{1, 1, 2.5f}}, {{1, 2, 3}})};
+  const auto world = world_of(scene);
+  const auto views = viewpoints_in(box, 4);
+  const auto irradiances = [&](int threads) {
+    const SurfaceCache cache = build(*world, {.region = box, .cell = 0.1f, .threads = threads}, views);
+    std::vector<Vec3f> all;
+    for (uint64_t i = 0; i < 1000; i++) {
+      Random random(3, i);
+      all.push_back(
+          cache.irradiance(box.lo + box.size() * Vec3f{{random.uniform(), 0, random.uniform()}}, {{0, 1, 0}}));
+    }
+    return all;
+  };
+  const std::vector<Vec3f> one = irradiances(1);
+  EXPECT_EQ(irradiances(2), one);
+  EXPECT_EQ(irradiances(5), one);
+}
+
+// Where nothing shines in, nothing is lit: a closed room beside a bright one.
+TEST(SurfaceCache, KeepsADarkRoomDark) {
+  Scene scene = scene_of(room(box.lo, box.hi), lambertian(0.6f, 1));
+  add(scene, room({{2.1f, 0, 0}}, {{4, 1.5f, 3}}), lambertian(0.6f));
+  const auto world = world_of(scene);
+  const Box3f both{box.lo, {{4, 1.5f, 3}}};
+  const SurfaceCache cache = build(*world, {.region = both, .cell = 0.2f}, viewpoints_in(both, 6));
+  EXPECT_GT(cache.irradiance({{1, 0, 1}}, {{0, 1, 0}})[0], 1);
+  EXPECT_EQ(cache.irradiance({{3, 0, 1}}, {{0, 1, 0}}), Vec3f{});
+}
+
+}  // namespace
+}  // namespace lightwell
