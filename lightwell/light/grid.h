@@ -65,7 +65,7 @@ struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()
   std::vector<uint8_t> valid;    ///< 1 for a node in free space, 0 inside a solid
-  float normal_offset = 0.25f;   ///< lookups are shifted by this many cells along the normal (docs/light.md section 5)
+  float normal_offset = 0.5f;    ///< lookups are shifted by this many cells along the normal (docs/light.md section 5)
 
   /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`. Interpolates
   /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, weighted by node_weight.
