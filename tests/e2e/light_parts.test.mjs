@@ -96,8 +96,10 @@ test('each light can be turned off, and together they are their sum', async (t) 
   assert.equal(off[place], 0, 'the floor has no light of its own');
   assert.ok(indirect[place] > 0 && direct[place] > indirect[place], `direct ${direct[place]}, indirect ${indirect[place]}`);
   assert.ok(off.some((byte, i) => i % 4 < 3 && byte > 0), 'the ball shines by itself');
+  const shining = [0, 1, 2].map((channel) => off.reduce((most, byte, i) => (i % 4 === channel ? Math.max(most, byte) : most), 0));
   all.forEach((byte, i) => {
     if (i % 4 === 3 || byte > SATURATED) return;
+    if (off[i] > 0 && off[i] < shining[i % 4]) return; // the edge of the ball: a mean of clipped light and of the floor
     const difference = linear(byte) + linear(off[i]) - linear(direct[i]) - linear(indirect[i]);
     assert.ok(Math.abs(difference) < ROUNDING, `byte ${i}: ${[byte, direct[i], indirect[i], off[i]]}`);
   });
