@@ -8,6 +8,8 @@
 namespace lightwell {
 namespace {
 
+/// Rays that look for cells from all viewpoints together.
+constexpr size_t most_looks = 1 << 19;
 /// Points of a cell that its samples start from.
 constexpr size_t most_places = 8;
 /// Rounds of looking for cells from those of the round before. What the last one sees for the first time is dark.
@@ -101,7 +103,7 @@ class SurfaceCacheBuilder {
   }
 
   std::vector<Sighting> look_around(std::span<const Vec3f> viewpoints, Progress& progress) {
-    const size_t rays = std::clamp<size_t>(options_.looks / std::max<size_t>(viewpoints.size(), 1), 4, 64);
+    const size_t rays = std::clamp<size_t>(most_looks / std::max<size_t>(viewpoints.size(), 1), 4, 64);
     return collect(viewpoints.size(), progress, [&](size_t i, std::vector<Sighting>& seen) {
       Random random(options_.seed ^ 0x5eed, i);
       const float u = random.uniform(), v = random.uniform();

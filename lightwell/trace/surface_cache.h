@@ -12,10 +12,9 @@
 namespace lightwell {
 
 struct SurfaceCacheOptions {
-  Box3f region;            ///< in and near which the cells have their size
-  float cell = 0.1f;       ///< metres
-  int samples = 32;        ///< of the light of a cell
-  size_t looks = 1 << 19;  ///< rays that look for cells from the viewpoints
+  Box3f region;       ///< in and near which the cells have their size
+  float cell = 0.1f;  ///< metres
+  int samples = 32;   ///< of the light of a cell
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };
