@@ -82,10 +82,14 @@ test('the view of a pack that the server does not have is not given to another o
   assert.deepEqual(own, await view(plain));
 });
 
-test('an address that is changed by hand is shown', async (t) => {
+test('an address that is changed by hand is shown, though the camera moves meanwhile', async (t) => {
   const { page } = await openHash(t, '#pack=lucy');
   await loaded(page);
-  await page.evaluate(() => (location.hash = '#pack=a%20room'));
+  await page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    location.hash = '#pack=a%20room';
+    view.dispatchEvent(new CustomEvent('camera-change', { detail: view.view }));
+  });
   await page.waitForFunction(() => document.title.startsWith('a room'));
   assert.deepEqual(await shown(page), ROOM);
 });

@@ -16,7 +16,13 @@ export interface Hash {
 export function bindHash(element: LightwellView): Hash {
   const parameters = new URLSearchParams(location.hash.slice(1));
   let pack = '';
-  const write = (camera: View | null) => history.replaceState(null, '', fragment(pack, camera));
+  let written = location.href;
+  const write = (camera: View | null) => {
+    // What the user has typed since stays, though its event is still to come.
+    if (location.href !== written) return;
+    history.replaceState(null, '', fragment(pack, camera));
+    written = location.href;
+  };
   element.on('camera-change', write);
   addEventListener('hashchange', () => location.reload());
   return {
