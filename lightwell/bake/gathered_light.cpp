@@ -38,7 +38,7 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, int ray
   int insides = 0;
   for (int i = 0; i < rays; i++) {
     const Vec3f direction = sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
-    const Gathering gathering = gather(world_, {position, direction}, random);
+    const Gathering gathering = gather(world_, {position, direction}, cache_.near(), random);
     found.rays += static_cast<uint64_t>(gathering.rays);
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
     const Vec3f radiance = cache_.reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
@@ -60,7 +60,8 @@ Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int 
   const float n = static_cast<float>(rays);
   for (int i = 0; i < rays; i++) {
     const Vec3f up = cosine_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
-    const Gathering gathering = gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, random);
+    const Gathering gathering =
+        gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, cache_.near(), random);
     const Vec3f direction = frame.to_world(up);
     sum += (cache_.reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
   }

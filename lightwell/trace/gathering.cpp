@@ -4,11 +4,14 @@
 namespace lightwell {
 namespace {
 
-/// Follows one ray from metal to metal.
+/// Near surfaces that are followed one after the other; in a gap that is narrower they are taken as they are.
+constexpr int most_near = 6;
+
+/// Follows one ray from metal to metal, and through narrow places.
 class Gatherer {
  public:
-  Gatherer(const World& world, Random& random)
-      : surfaces_(world.surfaces()), lights_(world.lights()), random_(random) {}
+  Gatherer(const World& world, float near, Random& random)
+      : surfaces_(world.surfaces()), lights_(world.lights()), near_(near), random_(random) {}
 
   Gathering follow(Ray ray) {
     while (gathering_.diffuse_count < Gathering::most_diffuse) {
@@ -26,20 +29,25 @@ class Gatherer {
       }
       const Surface surface = surfaces_.surface(hit);
       see(lights_.luminaire(hit), surfaces_.emission(hit, surface), [&] { return lights_.density(ray.origin, hit); });
-      gathering_.diffuse[gathering_.diffuse_count++] = {hit.position, hit.facing_normal(),
-                                                        throughput_ * surface.bsdf.diffuse};
-      if (!reflect(hit, surface.bsdf, ray)) break;
-      metals_++;
+      Bsdf followed = surface.bsdf;
+      if (hit.distance >= near_ || reflections_ >= most_near) {
+        gathering_.diffuse[gathering_.diffuse_count++] = {hit.position, hit.facing_normal(),
+                                                          throughput_ * surface.bsdf.diffuse};
+        followed.diffuse = {};
+      }
+      if (!reflect(hit, followed, ray)) break;
+      reflections_++;
     }
     return gathering_;
   }
 
  private:
-  /// Light of a luminaire at the end of the ray. Behind a metal the luminaires have been sampled too, with `density`.
+  /// Light of a luminaire at the end of the ray. After a reflection the luminaires have been sampled too, with
+  /// `density`.
   template <typename Density>
   void see(int luminaire, const Vec3f& radiance, const Density& density) {
     if (luminaire < 0 || max_component(radiance) <= 0) return;
-    if (metals_ == 0) {
+    if (reflections_ == 0) {
       gathering_.emitted = radiance;
       gathering_.luminaire = luminaire;
     } else {
@@ -47,13 +55,12 @@ class Gatherer {
     }
   }
 
-  /// Turns the ray into one that a metal reflects; false when it ends.
+  /// Turns the ray into one that a surface reflects; false when it ends.
   bool reflect(const Hit& hit, const Bsdf& bsdf, Ray& ray) {
-    if (max_component(bsdf.metal) <= 0) return false;
-    const Bsdf metal{.metal = bsdf.metal, .metallic = bsdf.metallic, .roughness = bsdf.roughness};
+    if (max_component(max(bsdf.metal, bsdf.diffuse)) <= 0) return false;
     const Vec3f normal = hit.facing_normal(), out = -ray.direction;
-    sample_lights(hit.position, normal, out, metal);
-    const Bsdf::Sample sample = metal.sample(normal, out, random_);
+    sample_lights(hit.position, normal, out, bsdf);
+    const Bsdf::Sample sample = bsdf.sample(normal, out, random_);
     const float survival = std::min(1.0f, max_component(throughput_ * sample.weight));
     if (survival <= 0 || random_.uniform() >= survival) return false;
     throughput_ *= sample.weight / survival;
@@ -62,29 +69,32 @@ class Gatherer {
     return true;
   }
 
-  void sample_lights(const Vec3f& position, const Vec3f& normal, const Vec3f& out, const Bsdf& metal) {
+  void sample_lights(const Vec3f& position, const Vec3f& normal, const Vec3f& out, const Bsdf& bsdf) {
     const Arrival arrival = lights_.sample(position, random_);
     const float cosine = dot(normal, arrival.direction);
     if (cosine <= 0 || max_component(arrival.radiance) <= 0) return;
-    const Vec3f value = metal.value(normal, out, arrival.direction);
+    const Vec3f value = bsdf.value(normal, out, arrival.direction);
     gathering_.rays++;
     if (max_component(value) <= 0 || hidden(surfaces_, position, normal, arrival, random_)) return;
     const float weight =
-        arrival.extended ? power_heuristic(arrival.density, metal.density(normal, out, arrival.direction)) : 1.0f;
+        arrival.extended ? power_heuristic(arrival.density, bsdf.density(normal, out, arrival.direction)) : 1.0f;
     gathering_.mirrored += throughput_ * value * arrival.radiance * (cosine * weight / arrival.density);
   }
 
   const TraceScene& surfaces_;
   const Lights& lights_;
+  float near_;
   Random& random_;
   Gathering gathering_;
   Vec3f throughput_ = Vec3f::filled(1);
-  float lobe_density_ = 0;  // with which the last metal chose the ray
-  int metals_ = 0;
+  float lobe_density_ = 0;  // with which the last surface chose the ray
+  int reflections_ = 0;
 };
 
 }  // namespace
 
-Gathering gather(const World& world, Ray ray, Random& random) { return Gatherer(world, random).follow(ray); }
+Gathering gather(const World& world, Ray ray, float near, Random& random) {
+  return Gatherer(world, near, random).follow(ray);
+}
 
 }  // namespace lightwell

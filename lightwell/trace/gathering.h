@@ -14,13 +14,13 @@ struct Gathering {
   struct Diffuse {
     Vec3f position{};
     Vec3f facing{};  ///< unit normal on the side that is seen
-    Vec3f albedo{};  ///< less what metals on the way keep
+    Vec3f albedo{};  ///< less what surfaces on the way keep
   };
   static constexpr size_t most_diffuse = 8;
 
   std::array<Diffuse, most_diffuse> diffuse;
   size_t diffuse_count = 0;
-  Vec3f mirrored{};  ///< W/m2/sr, of luminaires by way of metals
+  Vec3f mirrored{};  ///< W/m2/sr, of luminaires by way of metals and near surfaces
   Vec3f emitted{};   ///< W/m2/sr, of the luminaire that the ray meets first
   int luminaire = -1;
   bool meets_surface = false;
@@ -29,7 +29,8 @@ struct Gathering {
 };
 
 /// Follows a ray. Metals are followed by one sample of their lobe each, and one of the luminaires, weighted by the
-/// power heuristic.
-Gathering gather(const World& world, Ray ray, Random& random);
+/// power heuristic. So are all surfaces at which the ray arrives after less than `near` metres: a cache does not know
+/// their light well, since its cells are larger than what lies between.
+Gathering gather(const World& world, Ray ray, float near, Random& random);
 
 }  // namespace lightwell

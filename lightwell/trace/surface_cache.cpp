@@ -109,7 +109,8 @@ class SurfaceCacheBuilder {
       const float u = random.uniform(), v = random.uniform();
       uint64_t traced = 0;
       for (size_t k = 0; k < rays; k++) {
-        const Gathering gathering = gather(world_, {viewpoints[i], sphere_direction(k, rays, u, v)}, random);
+        const Gathering gathering =
+            gather(world_, {viewpoints[i], sphere_direction(k, rays, u, v)}, cache_.near(), random);
         see(gathering, seen);
         traced += static_cast<uint64_t>(gathering.rays);
       }
@@ -178,7 +179,7 @@ class SurfaceCacheBuilder {
     const float density = dot(direction, place.facing) / pi;
     if (!(density > 0)) return 0;
     const Ray ray{world_.surfaces().leave(place.position, place.facing), direction};
-    const Gathering gathering = gather(world_, ray, random);
+    const Gathering gathering = gather(world_, ray, cache_.near(), random);
     light.known += gathering.mirrored * (pi * share);
     if (gathering.luminaire >= 0) {
       const Lights& lights = world_.lights();

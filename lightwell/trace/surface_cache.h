@@ -33,6 +33,8 @@ class SurfaceCache {
   /// The irradiance at a surface, W/m2, all light included. Where no ray came while the cache was built, that of the
   /// cells around.
   Vec3f irradiance(const Vec3f& position, const Vec3f& facing) const;
+  /// The distance, in metres, below which a ray should not end in the cache: see gather().
+  float near() const { return cells_.size(); }
   /// The radiance that a ray sees by reflection, W/m2/sr.
   Vec3f reflected(const Gathering& gathering) const;
 

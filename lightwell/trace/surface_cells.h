@@ -14,6 +14,8 @@ class SurfaceCells {
   /// Cubes of `size` metres in and near the region.
   SurfaceCells(const Box3f& region, float size) : region_(region), size_(size) {}
 
+  /// Of the smallest cubes, metres.
+  float size() const { return size_; }
   /// The cell of a point of a surface whose unit normal on the lit side is `facing`. Never 0.
   uint64_t at(const Vec3f& position, const Vec3f& facing) const;
   /// The cell of twice the size that holds a cell.
