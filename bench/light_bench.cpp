@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "lightwell/light/atlas.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/light/push_pull.h"
 #include "lightwell/light/stream.h"
 #include "tests/light/light_fields.h"
@@ -34,16 +35,17 @@ void push_pull_half(benchmark::State& state, Fill fill) {
 BENCHMARK_CAPTURE(push_pull_half, plain, Fill::push_pull)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(push_pull_half, smooth, Fill::push_pull_smooth)->Unit(benchmark::kMillisecond);
 
-// Argument: noise in percent.
-void decode(benchmark::State& state) {
+/// Decodes and fills a grid. Argument: noise in percent.
+template <typename Encode, typename Decoder>
+void decode(benchmark::State& state, const Encode& encode, const Decoder& open) {
   const LightGrid grid = cube(32, 0.01f * static_cast<float>(state.range(0)));
-  const LightStream stream = encode_light(grid).value();
+  const auto stream = encode(grid).value();
   ByteWriter parameters;
   stream.layout.write(parameters);
   size_t bytes = parameters.size();
   for (const LightBundle& bundle : stream.bundles) bytes += bundle.payload.size();
   for (auto _ : state) {
-    LightDecoder decoder = LightDecoder::open(parameters.bytes(), bytes).value();
+    auto decoder = open(parameters.bytes(), bytes).value();
     for (const LightBundle& bundle : stream.bundles) benchmark::DoNotOptimize(decoder.append(bundle.payload));
   }
   const auto nodes = static_cast<double>(grid.moments.size());
@@ -51,14 +53,34 @@ void decode(benchmark::State& state) {
   state.counters["seconds_a_node"] =
       benchmark::Counter(nodes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(decode)->Arg(0)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
+void decode_slices(benchmark::State& state) {
+  decode(
+      state, [](const LightGrid& grid) { return encode_light(grid); }, LightDecoder::open);
+}
+void decode_lattice(benchmark::State& state) {
+  decode(
+      state, [](const LightGrid& grid) { return encode_lattice(grid); }, LatticeDecoder::open);
+}
+BENCHMARK(decode_slices)->Arg(0)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode_lattice)->Arg(0)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
+
+/// The whole grid of a decoder, as it is filled for each picture of it.
+void lattice_grid(benchmark::State& state) {
+  const LatticeStream stream = encode_lattice(cube(32, 0.03f)).value();
+  ByteWriter parameters;
+  stream.layout.write(parameters);
+  LatticeDecoder decoder = LatticeDecoder::open(parameters.bytes(), uint64_t(1) << 30).value();
+  for (const LightBundle& bundle : stream.bundles) benchmark::DoNotOptimize(decoder.append(bundle.payload));
+  for (auto _ : state) benchmark::DoNotOptimize(decoder.grid(Fill::push_pull).moments.data());
+}
+BENCHMARK(lattice_grid)->Unit(benchmark::kMillisecond);
 
 void write_atlas(benchmark::State& state) {
   const LightGrid grid = cube(32, 0);
   LightAtlas atlas(grid.shape, grid.normal_offset, light_scale(grid));
   for (auto _ : state) {
     atlas.update(grid);
-    benchmark::DoNotOptimize(atlas.halves.data());
+    benchmark::DoNotOptimize(atlas.halves().data());
   }
 }
 BENCHMARK(write_atlas)->Unit(benchmark::kMillisecond);

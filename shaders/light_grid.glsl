@@ -11,7 +11,8 @@
 // which is what Matrix4.decompose gives for (the object's matrix times a translation to the grid's first node), the
 // scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
 // in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the values. Red of texel (1, 0, 0) is
-// 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there.
+// 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there; green is the
+// finest level of a grid with bricks, whose atlas is another.
 //
 // docs/decisions/011-cost-of-the-lookup.md tells what costs how much.
 
@@ -87,12 +88,8 @@ vec3 directionInGrid( vec3 worldDirection ) {
 
 }
 
-// Seven fetches, filtered by the hardware: the 28 channels of the seven sub-volumes stacked along z. `node` is the place in
-// nodes, its whole numbers; a slice of padding lies before the first of them.
-void fetchLightProbes( highp sampler3D probesSH, vec3 node, vec3 atlasSize ) {
-
-	vec3 at = ( node + vec3( 0.5, 0.5, 1.5 ) ) / atlasSize;
-	vec3 next = vec3( 0.0, 0.0, 1.0 / 7.0 );
+// Seven fetches, filtered by the hardware: the 28 channels of the seven sub-volumes, `next` from one to the next.
+void fetchLightProbes( highp sampler3D probesSH, vec3 at, vec3 next ) {
 
 	vec4 s0 = texture( probesSH, at );
 	vec4 s1 = texture( probesSH, at + next );
@@ -131,28 +128,62 @@ vec3 evaluateLightProbes( vec3 n ) {
 
 }
 
+// Where a grid of Lightwell's with bricks is fetched: the texel in the first sub-volume for a place in cells of the grid and a
+// normal in its axes. The brick is looked for a little in front of the surface, which may lie where two of them meet.
+vec3 texelOfBrick( highp sampler3D probesSH, vec3 place, vec3 offset, vec3 cells, float finest, float firstSlice ) {
+
+	float cubesACell = exp2( finest ) / 4.0;
+	vec3 before = clamp( place + offset / exp2( finest ), vec3( 0.0 ), cells - 0.5 / exp2( finest ) );
+	vec4 brick = texelFetch( probesSH, ivec3( before * cubesACell ) + ivec3( 0, 0, 1 ), 0 );
+	float level = exp2( brick.a );
+	vec3 first = 4.0 * floor( before * level / 4.0 );
+	return brick.rgb + clamp( place * level + offset - first, vec3( 0.0 ), vec3( 4.0 ) ) + vec3( 0.0, 0.0, firstSlice );
+
+}
+
 vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
 
 	bool ours = isLightwellGrid( probesResolution );
 	vec3 atlasSize = vec3( textureSize( probesSH, 0 ) );
 	vec3 last = vec3( atlasSize.xy - 1.0, atlasSize.z / 7.0 - 3.0 );
 	vec3 normal = worldNormal;
-	vec3 node = ( worldPos - probesMin ) / ( probesMax - probesMin ) * probesResolution - 0.5 + 0.5 * worldNormal;
+	vec3 node;
+	vec3 texel;
+	float subVolume = atlasSize.z / 7.0;
 
 	if ( ours ) {
 
 		// Surfaces of a stretched object keep the normals that they had unstretched: a normal is multiplied by the stretch, the
 		// ratio of the cells' sides in the world to those in the grid.
 		vec4 header = texelFetch( probesSH, ivec3( 0 ), 0 );
+		vec4 parts = texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 );
+		bool bricks = parts.g > 0.5;
+		if ( bricks ) last = texelFetch( probesSH, ivec3( 2, 0, 0 ), 0 ).rgb;
 		lightProbeSample.turn = probesMax;
 		lightProbeSample.stretch = sizeOfGrid( probesResolution ) / ( last * header.rgb );
-		lightProbeSample.sky = texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 ).r > 0.5;
+		lightProbeSample.sky = parts.r > 0.5;
 		normal = directionInGrid( worldNormal );
-		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last + header.a * normal;
+		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last;
+
+		if ( bricks ) {
+
+			texel = texelOfBrick( probesSH, node, header.a * normal, last, parts.g, parts.a );
+			subVolume = parts.b;
+
+		} else {
+
+			texel = clamp( node + header.a * normal, vec3( 0.0 ), last ) + vec3( 0.0, 0.0, 1.0 );
+
+		}
+
+	} else {
+
+		node = ( worldPos - probesMin ) / ( probesMax - probesMin ) * probesResolution - 0.5 + 0.5 * worldNormal;
+		texel = clamp( node, vec3( 0.0 ), last ) + vec3( 0.0, 0.0, 1.0 );
 
 	}
 
-	fetchLightProbes( probesSH, clamp( node, vec3( 0.0 ), last ), atlasSize );
+	fetchLightProbes( probesSH, ( texel + 0.5 ) / atlasSize, vec3( 0.0, 0.0, subVolume / atlasSize.z ) );
 	lightProbeSample.reflects = ours;
 	if ( ! ours ) lightProbeSample.weight = 1.0;
 	return evaluateLightProbes( normal );

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/asset/codecs.h"
 
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/stream.h"
 #include "lightwell/texture/stream.h"
@@ -17,6 +18,7 @@ struct Codec {
 /// The table of codecs. All codecs of a kind create that kind's class, on which open_asset_as() relies.
 constexpr Codec codecs[] = {
     {StreamKind::light, light_codec_slices, open_light_slices},
+    {StreamKind::light, light_codec_lattice, open_light_lattice},
     {StreamKind::mesh, mesh_codec_splits, open_mesh_splits},
     {StreamKind::texture, texture_codec_file, open_texture_file},
 };

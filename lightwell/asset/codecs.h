@@ -41,7 +41,8 @@ struct AssetSource {
   AssetContext& context;
 };
 
-// Each has a file of its own: light_slices.cpp, mesh_splits.cpp, texture_file.cpp.
+// Each has a file of its own: light_lattice.cpp, light_slices.cpp, mesh_splits.cpp, texture_file.cpp.
+Result<std::unique_ptr<AssetDecoder>> open_light_lattice(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_light_slices(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_mesh_splits(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_texture_file(const AssetSource& source);

@@ -9,9 +9,7 @@ bool LightAsset::settled() const {
 
 bool LightAsset::settle() {
   if (settled()) return false;
-  LightGrid filled = grid();
-  push_pull(filled, known(), fill_);
-  atlas_.update(filled);
+  atlas_.update(filled(fill_));
   settled_ = received();
   return true;
 }
@@ -20,7 +18,7 @@ std::optional<Update> LightAsset::take(size_t) {
   if (taken_ == settled_) return std::nullopt;
   taken_ = settled_;
   const auto size = [](int n) { return static_cast<uint32_t>(n); };
-  const Bytes bytes(reinterpret_cast<const uint8_t*>(atlas_.halves.data()), atlas_.halves.size() * sizeof(uint16_t));
+  const Bytes bytes(reinterpret_cast<const uint8_t*>(atlas_.halves().data()), atlas_.halves().size_bytes());
   return LightUpdate{
       asset_, size(atlas_.width()), size(atlas_.height()), size(atlas_.depth()), static_cast<uint32_t>(settled_),
       bytes};

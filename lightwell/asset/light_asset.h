@@ -15,10 +15,10 @@ class LightAsset : public AssetDecoder {
  public:
   static constexpr StreamKind kind = StreamKind::light;
 
-  /// The known nodes, irradiance in W/m2; the others are dark.
-  virtual const LightGrid& grid() const = 0;
-  /// One byte per node: 1 where the node is known.
-  virtual std::span<const uint8_t> known() const = 0;
+  virtual const GridShape& shape() const = 0;
+  virtual float normal_offset() const = 0;
+  /// The grid as far as it has come, irradiance in W/m2, its missing nodes filled.
+  virtual LightGrid filled(Fill fill) const = 0;
   /// Number of known nodes.
   virtual size_t received() const = 0;
 
@@ -31,7 +31,6 @@ class LightAsset : public AssetDecoder {
   bool settle() final;
   std::optional<Update> take(size_t budget) final;
   uint64_t decoded() const final { return received(); }
-  uint64_t total() const final { return grid().shape.count(); }
 
  protected:
   LightAsset(uint32_t asset, Fill fill, LightAtlas atlas) : asset_(asset), fill_(fill), atlas_(std::move(atlas)) {}

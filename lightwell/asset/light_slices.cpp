@@ -15,9 +15,15 @@ class LightSlices final : public LightAsset {
         decoder_(std::move(decoder)) {}
 
   Result<void> append(Bytes payload) override { return decoder_.append(payload); }
-  const LightGrid& grid() const override { return decoder_.grid(); }
-  std::span<const uint8_t> known() const override { return decoder_.known(); }
+  const GridShape& shape() const override { return decoder_.layout().shape; }
+  float normal_offset() const override { return decoder_.layout().normal_offset; }
+  LightGrid filled(Fill fill) const override {
+    LightGrid grid = decoder_.grid();
+    push_pull(grid, decoder_.known(), fill);
+    return grid;
+  }
   size_t received() const override { return decoder_.received(); }
+  uint64_t total() const override { return shape().count(); }
 
  private:
   LightDecoder decoder_;

@@ -67,7 +67,8 @@ struct EstimatorOptions {
 /// A row of the table of estimators. A new estimator is a new file and a row.
 struct EstimatorKind {
   const char* name;
-  const char* help;  ///< a few words for the command line
+  const char* help;   ///< a few words for the command line
+  bool node_by_node;  ///< whether a node's light does not depend on the grid, so that more nodes can be added
   /// Scene and options must outlive the estimator.
   std::unique_ptr<Estimator> (*make)(const BakeScene& scene, const GridShape& shape, const EstimatorOptions& options);
 };

@@ -9,8 +9,8 @@ namespace lightwell {
 
 std::span<const EstimatorKind> estimators() {
   static constexpr std::array table{
-      EstimatorKind{"gather", "rays from the nodes to surfaces whose light is known", make_gather_estimator},
-      EstimatorKind{"tracks", "the lengths of photons' flights through the nodes' boxes", make_track_estimator},
+      EstimatorKind{"gather", "rays from the nodes to surfaces whose light is known", true, make_gather_estimator},
+      EstimatorKind{"tracks", "the lengths of photons' flights through the nodes' boxes", false, make_track_estimator},
   };
   return table;
 }

@@ -6,9 +6,6 @@
 namespace lightwell {
 namespace {
 
-/// Rays from a node: 3 % of noise in a room (design: evenly spread, 64 give 4 %, 256 1.4 %, before the cache's own).
-constexpr int rays_a_node = 256;
-
 /// Nodes that are finished; the others are zero, so that sums are exact.
 struct FinishedNodes : public PartialLight {
   explicit FinishedNodes(size_t count) : moments(count), insides(count) {}
@@ -30,10 +27,7 @@ struct FinishedNodes : public PartialLight {
 class GatherEstimator : public Estimator {
  public:
   GatherEstimator(const BakeScene& scene, const GridShape& shape, const EstimatorOptions& options)
-      : scene_(scene),
-        shape_(shape),
-        options_(options),
-        light_(scene.world, scene.space, scene.cache, options.contained) {}
+      : shape_(shape), options_(options), light_(scene.world, scene.space, scene.cache, options.contained) {}
 
   uint64_t samples() const override { return shape_.count(); }
   std::string_view unit() const override { return "nodes"; }
@@ -45,7 +39,7 @@ class GatherEstimator : public Estimator {
     auto& nodes = static_cast<FinishedNodes&>(sum);
     for (uint64_t node = begin; node < end; node++) {
       Random random(options_.seed, node);
-      const auto found = light_.around(viewpoint(scene_.world, shape_, node), rays_a_node, random);
+      const auto found = light_.at_node(shape_.position(shape_.node(node)), shape_.cell, random);
       nodes.moments[node] = found.moments;
       nodes.insides[node] = found.insides;
       nodes.rays += found.rays;
@@ -58,7 +52,6 @@ class GatherEstimator : public Estimator {
   }
 
  private:
-  const BakeScene& scene_;
   const GridShape shape_;
   const EstimatorOptions& options_;
   const GatheredLight light_;

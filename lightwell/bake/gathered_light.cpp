@@ -7,6 +7,9 @@ namespace {
 /// Samples of the contained luminaires at a place; rays alone find only large ones.
 constexpr int luminaire_samples = 64;
 
+/// Of a cell: how far behind a surface a node answers for it.
+constexpr float close_by = 0.5f;
+
 /// Adds radiance from a direction, times the solid angle that it stands for.
 void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
   const auto sign = [&](int a) { return w[a] < 0 ? -1.0f : 1.0f; };
@@ -19,19 +22,19 @@ void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
 
 }  // namespace
 
-Vec3f viewpoint(const World& world, const GridShape& shape, size_t node) {
+Vec3f viewpoint(const World& world, const Vec3f& node, const Vec3f& cell) {
   constexpr float inset = 0.1f;
   const Box3f& box = world.surfaces().bounds();
-  Vec3f position = shape.position(shape.node(node));
+  Vec3f position = node;
   for (int a = 0; a < 3; a++) {
-    const float margin = inset * shape.cell[a];
+    const float margin = inset * cell[a];
     if (std::abs(position[a] - box.lo[a]) < margin) position[a] = box.lo[a] + margin;
     if (std::abs(position[a] - box.hi[a]) < margin) position[a] = box.hi[a] - margin;
   }
   return position;
 }
 
-GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, int rays, Random& random) const {
+GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random& random, int rays) const {
   Surroundings found;
   const float shift = random.uniform(), turn = random.uniform();
   const float solid_angle = 4 * pi / static_cast<float>(rays);
@@ -51,6 +54,37 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, int ray
     add_radiance(found.moments, arrival.direction, arrival.radiance * (weight / (luminaire_samples * arrival.density)));
   });
   return found;
+}
+
+GatheredLight::Surroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, Random& random) const {
+  const Vec3f position = viewpoint(world_, node, cell);
+  Surroundings found = around(position, random);
+  for (int d = 0; d < 6; d++) {
+    Vec3f direction{};
+    direction[d / 2] = d % 2 == 0 ? 1.0f : -1.0f;
+    const auto beyond = facing_surface(position, direction, close_by * cell[d / 2], random);
+    if (!beyond) continue;
+    found.moments.m[static_cast<size_t>(d)] = irradiance(*beyond, direction, rays_a_node / 2, random);
+    found.rays += rays_a_node / 2;
+  }
+  return found;
+}
+
+std::optional<Vec3f> GatheredLight::facing_surface(const Vec3f& position, const Vec3f& direction, float reach,
+                                                   Random& random) const {
+  constexpr int most_surfaces = 4;
+  constexpr float least_cosine = 0.7f;
+  const TraceScene& surfaces = world_.surfaces();
+  std::optional<Vec3f> last;
+  Ray ray{.origin = position, .direction = direction, .far = reach};
+  Hit hit;
+  for (int i = 0; i < most_surfaces && ray.far > 0 && surfaces.intersect(ray, random, hit); i++) {
+    if (hit.front || surfaces.material(hit.instance).double_sided) break;
+    if (dot(hit.normal, direction) > least_cosine) last = hit.position;
+    ray.origin = surfaces.leave(hit.position, direction);
+    ray.far = reach - dot(ray.origin - position, direction);
+  }
+  return last;
 }
 
 Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random) const {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <optional>
 
+#include "lightwell/bake/adaptive_light.h"
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/bake/light_error.h"
 #include "lightwell/bake/thin_walls.h"
@@ -18,8 +20,22 @@ namespace {
 /// The memory that the threads' sums may take together, bytes; where it does not suffice, fewer threads add up.
 constexpr size_t sums_limit = size_t(768) << 20;
 
+/// Nodes on the longest axis of a grid that is to be divided.
+constexpr int coarse_nodes = 17;
+
+/// Gives a grid an even number of cells on each axis, as bricks need.
+void make_divisible(GridShape& shape) {
+  for (int a = 0; a < 3; a++) {
+    if (shape.cells()[a] % 2 == 0) continue;
+    shape.cell[a] *= static_cast<float>(shape.cells()[a]) / static_cast<float>(shape.nodes[a]);
+    shape.nodes[a]++;
+  }
+}
+
+/// `longest` as LightBakeOptions::nodes.
 Result<std::vector<GridShape>> place_nodes(const World& world, int longest) {
-  std::vector<GridShape> shapes = possible_grids(world, longest);
+  std::vector<GridShape> shapes = possible_grids(world, longest == 0 ? coarse_nodes : longest);
+  if (longest == 0) std::for_each(shapes.begin(), shapes.end(), make_divisible);
   size_t most = 0;
   for (const GridShape& shape : shapes) most = std::max(most, shape.count());
   if (most <= LightLayout::most_nodes) return shapes;
@@ -47,18 +63,16 @@ Result<std::unique_ptr<PartialLight>> sum_up(const Estimator& estimator, int thr
   return std::move(sums.front());
 }
 
-/// The light of the surfaces that the nodes see, in cells of a third of the grid's: finer than what is looked up.
-Result<SurfaceCache> light_surfaces(const World& world, const GridShape& shape, const EstimatorOptions& options,
-                                    Progress& progress) {
+/// The light of the surfaces that the nodes see, in cells finer than what is looked up: as large as `cell`, metres.
+Result<SurfaceCache> light_surfaces(const World& world, const GridShape& shape, float cell,
+                                    const EstimatorOptions& options, Progress& progress) {
   std::vector<Vec3f> viewpoints(shape.count());
-  for (size_t i = 0; i < viewpoints.size(); i++) viewpoints[i] = viewpoint(world, shape, i);
+  for (size_t i = 0; i < viewpoints.size(); i++)
+    viewpoints[i] = viewpoint(world, shape.position(shape.node(i)), shape.cell);
   progress.stage("surfaces", 0, "cells");
-  return SurfaceCache::build(world, viewpoints,
-                             {.region = world.surfaces().bounds(),
-                              .cell = max_component(shape.cell) / 3,
-                              .seed = options.seed,
-                              .threads = options.threads},
-                             progress);
+  return SurfaceCache::build(
+      world, viewpoints,
+      {.region = world.surfaces().bounds(), .cell = cell, .seed = options.seed, .threads = options.threads}, progress);
 }
 
 Result<NodeLight> light_nodes(const BakeScene& scene, const GridShape& shape, const LightBakeOptions& options,
@@ -68,19 +82,6 @@ Result<NodeLight> light_nodes(const BakeScene& scene, const GridShape& shape, co
   return estimator->finish(*sum);
 }
 
-/// The grid of which nodes with at most so large a share of insides around them are valid.
-LightGrid grid_of(const GridShape& shape, const NodeLight& light, float most_insides) {
-  LightGrid grid;
-  grid.shape = shape;
-  grid.moments = light.moments;
-  for (size_t node = 0; node < light.insides.size(); node++) {
-    grid.valid.push_back(light.insides[node] <= most_insides);
-    if (!grid.valid.back()) grid.moments[node] = {};
-  }
-  fill_invalid(grid);
-  return grid;
-}
-
 /// Keeps the grid that errs least of those that it is shown.
 class BestGrid {
  public:
@@ -88,56 +89,88 @@ class BestGrid {
 
   /// Shows it the ways to use the nodes' light. A node that sees some insides stands near a thin solid, or behind a
   /// sheet: in rooms of sheets it is better left out, among furniture it is better kept.
-  void consider(const GridShape& shape, const NodeLight& light) {
+  /// True when one of them is the best so far.
+  bool consider(const AdaptiveLight& light) {
+    bool better = false;
     for (const float most_insides : {0.25f, 0.5f, 0.8f, 0.95f}) {
-      LightGrid grid = grid_of(shape, light, most_insides);
+      LightGrid grid = light.grid(most_insides);
       grid.normal_offset = test_.best_offset(grid);
-      const float error = test_.error(grid);
+      const float error = test_.mean_error(grid);
       if (!grid_.moments.empty() && error >= error_) continue;
       error_ = error;
+      most_insides_ = most_insides;
+      nodes_ = light.count();
       grid_ = std::move(grid);
+      better = true;
     }
+    return better;
   }
 
-  float error() const { return error_; }
+  float most_insides() const { return most_insides_; }
+  float normal_offset() const { return grid_.normal_offset; }
+  size_t nodes() const { return nodes_; }
   LightGrid take() { return std::move(grid_); }
 
  private:
   const TestPoints& test_;
   LightGrid grid_;
-  float error_ = 0;
+  float error_ = 0, most_insides_ = 0;
+  size_t nodes_ = 0;
 };
 
 }  // namespace
 
 Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                              LightBakeStatistics& statistics) {
-  LW_ASSERT(options.nodes >= 2 && options.estimator.photons >= 2);
+  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= 2);
   if (world.lights().dark()) {
     return fail("",
                 "nothing shines: the scene has no emissive material, no lamp and no environment; "
                 "--environment 1,1,1 lights it from all around");
   }
   const auto start = std::chrono::steady_clock::now();
+  const EstimatorOptions& estimator = options.estimator;
+  const bool adaptive = options.nodes == 0;
+  if (adaptive && !options.method->node_by_node)
+    return fail(ErrorKind::unsupported, "grid",
+                "--method " + std::string(options.method->name) + " fills regular grids only: give --grid N");
   progress.stage("free space", 0, "photons");
   LW_TRY(shapes, place_nodes(world, options.nodes));
-  SurveyOptions survey{.seed = options.estimator.seed, .threads = options.estimator.threads};
-  survey.most_photons = std::min(survey.most_photons, options.estimator.photons);
+  SurveyOptions survey{.seed = estimator.seed, .threads = estimator.threads};
+  survey.most_photons = std::min(survey.most_photons, estimator.photons);
   LW_TRY(space, FreeSpace::survey(world, survey, progress));
-  LW_TRY(cache, light_surfaces(world, shapes.front(), options.estimator, progress));
-  const BakeScene scene{world, space, cache};
-  const GatheredLight light(world, space, cache, options.estimator.contained);
-  LW_TRY(test, TestPoints::gather(world, light, ~options.estimator.seed, options.estimator.threads, progress));
+  const float cell = max_component(shapes.front().cell) / static_cast<float>(adaptive ? 6 : 3);
+  LW_TRY(cache, light_surfaces(world, shapes.front(), cell, estimator, progress));
+  const GatheredLight light(world, space, cache, estimator.contained);
+  const TestPointOptions testing{.seed = ~estimator.seed, .threads = estimator.threads};
+  LW_TRY(test, TestPoints::gather(world, light, testing, progress));
 
   statistics.rays = cache.rays();
   BestGrid best(test);
+  std::optional<AdaptiveLight> chosen;
   for (const GridShape& shape : shapes) {
-    LW_TRY(nodes, light_nodes(scene, shape, options, progress));
+    LW_TRY(nodes, light_nodes({world, space, cache}, shape, options, progress));
     statistics.rays += nodes.rays;
-    best.consider(shape, nodes);
+    AdaptiveLight candidate(light, shape, std::move(nodes), estimator);
+    if (best.consider(candidate)) chosen.emplace(std::move(candidate));
   }
-  statistics.estimated_error = best.error();
+  if (adaptive) {
+    // Points of their own: what the grid was fitted to would tell nothing of its error.
+    const TestPointOptions fitting{.surface_points = 4000,
+                                   .free_points = 1000,
+                                   .rays = 256,
+                                   .seed = testing.seed ^ 0xb71c,
+                                   .threads = estimator.threads};
+    LW_TRY(fit, TestPoints::gather(world, light, fitting, progress));
+    const uint64_t before = chosen->rays();
+    LW_CHECK(chosen->refine(fit, {options.target_error, options.most_nodes, best.most_insides(), best.normal_offset()},
+                            progress));
+    statistics.rays += chosen->rays() - before;
+    best.consider(*chosen);
+  }
+  statistics.nodes = best.nodes();
   LightGrid grid = best.take();
+  statistics.estimated_error = test.error(grid);
   statistics.invalid_nodes = static_cast<size_t>(std::count(grid.valid.begin(), grid.valid.end(), 0));
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return grid;

@@ -8,7 +8,13 @@
 namespace lightwell {
 
 struct LightBakeOptions {
-  int nodes = 32;  ///< on the grid's longest axis, at least 2
+  /// On the longest axis of a regular grid, at least 2; 0 for an adaptive grid, with bricks where the light changes
+  /// quickly, which takes a method that goes node by node.
+  int nodes = 32;
+  /// Of an adaptive grid: the mean error below which it is not divided further, a share of the mean irradiance, and
+  /// about how many nodes it may have.
+  float target_error = 0.005f;
+  size_t most_nodes = 20'000;
   const EstimatorKind* method = &estimators().front();
   EstimatorOptions estimator;
 };
@@ -16,15 +22,16 @@ struct LightBakeOptions {
 struct LightBakeStatistics {
   uint64_t rays = 0;
   double seconds = 0;
+  size_t nodes = 0;
   size_t invalid_nodes = 0;
-  /// The noise of the grid, as a share of its root mean square irradiance (docs/light.md section 4). Excludes the blur
-  /// by the nodes' boxes.
+  /// Root mean square at test points of surfaces, as a share of the mean irradiance (docs/light.md section 4).
   float estimated_error = 0;
 };
 
 /// Bakes the light of a world into a grid: places the nodes, determines the free space, and lets an estimator fill in
 /// the light. The same world and options give the same grid for any number of threads. Fails when nothing shines, when
-/// the grid has more nodes than a pack can hold, or when `progress` is cancelled.
+/// the method cannot fill an adaptive grid, when the grid has more nodes than a pack can hold, or when `progress` is
+/// cancelled.
 Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                              LightBakeStatistics& statistics);
 

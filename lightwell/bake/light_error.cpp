@@ -12,11 +12,10 @@ namespace {
 
 /// Of the scene's diagonal: how far off the surface points are looked up.
 constexpr float off_surface = 2e-4f;
-constexpr size_t point_count = 500;
 /// Of what a tenth of all points have at least: places that are darker lie in gaps that nobody sees.
 constexpr float least_lit = 0.03f;
-/// Two sets a point: their difference tells their noise.
-constexpr int rays_a_set = 512;
+/// A place that sees a greater share of insides is no free space.
+constexpr float most_insides = 0.25f;
 
 /// All faces that are traced, chosen by area.
 class Surfaces {
@@ -60,24 +59,37 @@ float brightness(const Vec3f& light) { return light[0] + light[1] + light[2]; }
 
 }  // namespace
 
-Result<TestPoints> TestPoints::gather(const World& world, const GatheredLight& light, uint64_t seed, int threads,
+Result<TestPoints> TestPoints::gather(const World& world, const GatheredLight& light, const TestPointOptions& options,
                                       Progress& progress) {
   TestPoints test;
   const Surfaces surfaces(world.surfaces());
   if (surfaces.empty()) return test;
-  test.points_.resize(point_count);
-  progress.stage("estimating the error", static_cast<double>(point_count), "points");
+  const Box3f box = world.surfaces().bounds();
+  const size_t count = options.surface_points + options.free_points;
+  test.points_.resize(count);
+  progress.stage("estimating the error", static_cast<double>(count), "points");
+  // Two sets of rays a point: their difference tells their noise.
+  const auto on_surface = [&](Point& point, Random& random) {
+    std::tie(point.position, point.normal) = surfaces.sample(random);
+    point.facing = point.normal;
+    const Vec3f a = light.irradiance(point.position, point.normal, options.rays / 2, random);
+    point.set(a, light.irradiance(point.position, point.normal, options.rays / 2, random));
+  };
+  const auto in_free_space = [&](Point& point, Random& random) {
+    const Vec3f share{{random.uniform(), random.uniform(), random.uniform()}};
+    point.position = box.lo + box.size() * share;
+    point.facing = sample_sphere(random);
+    const auto a = light.around(point.position, random, options.rays / 2);
+    const auto b = light.around(point.position, random, options.rays / 2);
+    if (a.insides + b.insides <= 2 * most_insides)
+      point.set(a.moments.irradiance(point.facing), b.moments.irradiance(point.facing));
+  };
   parallel_for(
-      point_count, 4, threads,
+      count, 4, options.threads,
       [&](size_t begin, size_t end, int) {
         for (size_t i = begin; i < end; i++) {
-          Random random(seed, i);
-          Point& point = test.points_[i];
-          std::tie(point.position, point.normal) = surfaces.sample(random);
-          const Vec3f a = light.irradiance(point.position, point.normal, rays_a_set, random);
-          const Vec3f b = light.irradiance(point.position, point.normal, rays_a_set, random);
-          point.irradiance = (a + b) / 2.0f;
-          point.variance = (a - b) * (a - b) / 4.0f;
+          Random random(options.seed, i);
+          i < options.surface_points ? on_surface(test.points_[i], random) : in_free_space(test.points_[i], random);
         }
       },
       [&] { return progress.cancelled(); });
@@ -93,7 +105,7 @@ Result<TestPoints> TestPoints::gather(const World& world, const GatheredLight& l
 float TestPoints::error(const LightGrid& grid) const {
   double squares = 0, sum = 0;
   for (const Point& point : points_) {
-    const Vec3f difference = grid.irradiance(point.position, point.normal) - point.irradiance;
+    const Vec3f difference = grid.irradiance(point.position, point.normal, point.facing) - point.irradiance;
     squares += static_cast<double>(dot(difference, difference) - brightness(point.variance));
     sum += static_cast<double>(brightness(point.irradiance));
   }
@@ -103,12 +115,30 @@ float TestPoints::error(const LightGrid& grid) const {
   return static_cast<float>(std::sqrt(std::max(squares, 0.0) / count) / size);
 }
 
+std::vector<TestPoints::Excess> TestPoints::excess(const LightGrid& grid) const {
+  std::vector<Excess> found;
+  for (const Point& point : points_) {
+    const Vec3f difference = grid.irradiance(point.position, point.normal, point.facing) - point.irradiance;
+    float error = 0;
+    for (int c = 0; c < 3; c++) error += std::max(std::abs(difference[c]) - std::sqrt(point.variance[c]), 0.0f);
+    found.push_back({point.position, error});
+  }
+  return found;
+}
+
+float TestPoints::mean_error(const LightGrid& grid) const {
+  double differences = 0, sum = 0;
+  for (const Excess& point : excess(grid)) differences += static_cast<double>(point.error);
+  for (const Point& point : points_) sum += static_cast<double>(brightness(point.irradiance));
+  return static_cast<float>(sum > 0 ? differences / sum : differences);
+}
+
 float TestPoints::best_offset(LightGrid grid) const {
   constexpr std::array offsets{0.25f, 0.15f, 0.35f, 0.5f};
   float best = offsets.front(), least = std::numeric_limits<float>::infinity();
   for (const float offset : offsets) {
     grid.normal_offset = offset;
-    const float found = error(grid);
+    const float found = mean_error(grid);
     if (!(found < least)) continue;
     least = found;
     best = offset;

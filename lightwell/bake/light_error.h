@@ -7,28 +7,55 @@
 
 namespace lightwell {
 
-/// The light of random points of the fronts of surfaces, evenly spread over their area, gathered apart from any grid:
-/// what a grid is measured by.
+struct TestPointOptions {
+  size_t surface_points = 500;
+  size_t free_points = 0;
+  int rays = 1024;  ///< of a point
+  uint64_t seed = 1;
+  int threads = 0;  ///< 0: all processors
+};
+
+/// The light of random points of the fronts of surfaces, evenly spread over their area, and of free space, gathered
+/// apart from any grid: what a grid is measured by.
 class TestPoints {
  public:
   /// The same for any number of threads. Fails when `progress` asks to stop.
-  static Result<TestPoints> gather(const World& world, const GatheredLight& light, uint64_t seed, int threads,
+  static Result<TestPoints> gather(const World& world, const GatheredLight& light, const TestPointOptions& options,
                                    Progress& progress);
+
+  /// How much the grid errs at a point, W/m2 summed over the colours, beyond what the noise of the gathered light may
+  /// make of it; at least 0.
+  struct Excess {
+    Vec3f position{};
+    float error = 0;
+  };
+  std::vector<Excess> excess(const LightGrid& grid) const;
 
   /// The root mean square difference of a grid at the points, without the noise of the gathered light, as a share of
   /// the mean irradiance. Points that next to no light reaches, below 3 % of what a tenth of all points have at
   /// least, say nothing of what is seen, and are left out. Where no point is lit it is
   /// the difference itself, W/m2.
   float error(const LightGrid& grid) const;
+  /// The mean difference, of any sign, as a share of the mean irradiance: the few points of narrow gaps, which a root
+  /// mean square is made of, do not rule it.
+  float mean_error(const LightGrid& grid) const;
   /// Of a few normal offsets the one with which the grid errs least: small where nodes stand well, larger where walls
   /// are thinner than a cell.
   float best_offset(LightGrid grid) const;
 
  private:
   struct Point {
-    Vec3f position{}, normal{};
+    Vec3f position{};
+    Vec3f normal{};      // of the surface; 0 in free space
+    Vec3f facing{};      // whence the light comes
     Vec3f irradiance{};  // W/m2
     Vec3f variance{};
+
+    /// Of two independent estimates.
+    void set(const Vec3f& a, const Vec3f& b) {
+      irradiance = (a + b) / 2.0f;
+      variance = (a - b) * (a - b) / 4.0f;
+    }
   };
   std::vector<Point> points_;
 };

@@ -15,6 +15,7 @@ class ModelWriter {
   bool bit(AdaptiveBit& model, bool value) { return encoder_.bit(model, value), value; }
   uint32_t natural(AdaptiveNatural& model, uint32_t value) { return model.encode(encoder_, value), value; }
   int32_t integer(AdaptiveInteger& model, int32_t value) { return model.encode(encoder_, value), value; }
+  int32_t residual(AdaptiveResidual& model, int32_t value) { return model.encode(encoder_, value), value; }
   /// The low `bits` bits of the value, without a model; bits <= 32.
   uint32_t raw(uint32_t value, int bits) { return encoder_.raw(value, bits), value; }
   /// Ends the stream and returns its bytes.
@@ -33,6 +34,7 @@ class ModelReader {
   bool bit(AdaptiveBit& model, bool) { return decoder_.bit(model); }
   uint32_t natural(AdaptiveNatural& model, uint32_t) { return model.decode(decoder_); }
   int32_t integer(AdaptiveInteger& model, int32_t) { return model.decode(decoder_); }
+  int32_t residual(AdaptiveResidual& model, int32_t) { return model.decode(decoder_); }
   uint32_t raw(uint32_t, int bits) { return decoder_.raw(bits); }
   /// True when the payload was too short for what has been read.
   bool overrun() const { return decoder_.overrun(); }

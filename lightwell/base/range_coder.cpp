@@ -160,4 +160,32 @@ int32_t AdaptiveInteger::decode(RangeDecoder& decoder) {
   return static_cast<int32_t>(negative ? 0u - magnitude : magnitude);
 }
 
+void AdaptiveResidual::encode(RangeEncoder& encoder, int32_t value) {
+  encoder.bit(zero_, value != 0);
+  if (value == 0) return;
+  encoder.bit(negative_, value < 0);
+  const uint32_t magnitude = (value < 0 ? 0u - static_cast<uint32_t>(value) : static_cast<uint32_t>(value)) - 1;
+  for (uint32_t i = 0; i < most_unary; i++) {
+    encoder.bit(more_[i], magnitude > i);
+    if (magnitude == i) return;
+  }
+  const uint32_t rest = magnitude - most_unary;  // at least 0, and rest + 1 has at most 32 bits
+  const int width = std::bit_width(uint64_t(rest) + 1) - 1;
+  encoder.raw(static_cast<uint32_t>(width), 5);
+  encoder.raw(static_cast<uint32_t>(uint64_t(rest) + 1 - (uint64_t(1) << width)), width);
+}
+
+int32_t AdaptiveResidual::decode(RangeDecoder& decoder) {
+  if (!decoder.bit(zero_)) return 0;
+  const bool negative = decoder.bit(negative_);
+  uint32_t magnitude = 0;
+  while (magnitude < most_unary && decoder.bit(more_[magnitude])) magnitude++;
+  if (magnitude == most_unary) {
+    const int width = static_cast<int>(decoder.raw(5));
+    magnitude += static_cast<uint32_t>((uint64_t(1) << width) - 1 + decoder.raw(width));
+  }
+  magnitude++;
+  return static_cast<int32_t>(negative ? 0u - magnitude : magnitude);
+}
+
 }  // namespace lightwell

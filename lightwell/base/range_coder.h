@@ -119,4 +119,17 @@ class AdaptiveNatural {
   std::array<std::array<AdaptiveBit, 4>, 33> leading_;
 };
 
+/// An adaptive model of signed 32-bit integers that cluster round zero: whether it is zero, the sign, then the
+/// magnitude in unary, an adaptive bit each, and what is beyond as an exponential Golomb code.
+class AdaptiveResidual {
+ public:
+  void encode(RangeEncoder& encoder, int32_t value);
+  int32_t decode(RangeDecoder& decoder);
+
+ private:
+  static constexpr uint32_t most_unary = 18;
+  AdaptiveBit zero_, negative_;
+  std::array<AdaptiveBit, most_unary> more_;
+};
+
 }  // namespace lightwell

@@ -17,12 +17,14 @@ constexpr NumberRange unit_range = {1e-9, 1e9};
 void add_grid_option(CLI::App& command, int& nodes) {
   const int standard = nodes;
   const auto take = [&nodes, standard](const std::string& text) -> Result<void> {
-    const Result<int64_t> chosen = text == "auto" ? standard : parse_whole(text, {2, 256});
-    if (!chosen) return fail(text, "is neither auto nor a whole number from 2 to 256");
+    const Result<int64_t> chosen = text == "auto" ? standard : text == "adaptive" ? 0 : parse_whole(text, {2, 256});
+    if (!chosen) return fail(text, "is neither auto nor adaptive nor a whole number from 2 to 256");
     nodes = static_cast<int>(*chosen);
     return {};
   };
-  add_text(command, "--grid", "auto|N", take, "Nodes on the light grid's longest axis, 2 to 256; auto is 32")
+  add_text(
+      command, "--grid", "auto|adaptive|N", take,
+      "Nodes on the light grid's longest axis, 2 to 256; auto is 32, adaptive makes cells finer where light changes")
       ->default_str("auto");
 }
 

@@ -16,14 +16,14 @@ struct SceneOptions {
   std::string path;         ///< a scene file, a pack, or the name of a built-in scene
   std::string environment;  ///< "R,G,B", or the name of a Radiance .hdr file; empty: the scene's own
   ImportOptions import;
-  int nodes = 32;  ///< on the light grid's longest axis
+  int nodes = 32;  ///< see LightBakeOptions
   uint64_t photons = 8'000'000;
   const EstimatorKind* method = &estimators().front();
   int threads = 0;  ///< 0: all processors
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
   LightBakeOptions light(const LuminaireSet& contained) const {
-    return {nodes, method, {photons, import.seed, contained, threads}};
+    return {.nodes = nodes, .method = method, .estimator = {photons, import.seed, contained, threads}};
   }
 };
 

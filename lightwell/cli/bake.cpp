@@ -16,6 +16,7 @@ struct Options {
   SceneOptions scene;
   std::string output;
   PackOptions pack;
+  LightNodeOrder order = LightNodeOrder::lattice;
 };
 
 // Everything that a bake makes, in the order in which it is made.
@@ -48,6 +49,7 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   LW_TRY(grid, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
   bake.light.lamps = bake.plan.client;
   PackGrid stated;
+  stated.order = options.order;
   stated.seed = options.scene.import.seed;
   stated.estimated_error = bake.light_statistics.estimated_error;
   const std::vector<Luminaire>& luminaires = world.lights().luminaires();
@@ -86,7 +88,7 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
 nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
   return {{"triangles", bake.pack_statistics.triangles},
           {"vertices", bake.pack_statistics.vertices},
-          {"nodes", bake.field.layers().front().grid.shape.count()},
+          {"nodes", bake.light_statistics.nodes},
           {"photons", options.scene.photons},
           {"rays", bake.light_statistics.rays},
           {"seconds",
@@ -127,6 +129,9 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_scene_options(*command, options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene");
   add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
              "How far a vertex may move at most, in metres (default: a 32,000th of its mesh's longest side)");
+  add_choice<LightNodeOrder>(
+      *command, "--order", options->order, {{"lattice", LightNodeOrder::lattice}, {"slices", LightNodeOrder::slices}},
+      "How the light grid is streamed: from coarse to fine, or some nodes of every slice of a regular grid");
   command->footer(
       "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
       "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");

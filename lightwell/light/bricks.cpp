@@ -9,20 +9,24 @@
 namespace lightwell {
 namespace {
 
-uint64_t key_of(const Brick& brick) {
-  uint64_t key = static_cast<uint64_t>(brick.level);
-  for (const int c : brick.at.e) key = key << 18 | static_cast<uint64_t>(c);
-  return key;
-}
-
 /// The bricks of level 1 on each axis of a grid.
 Vec3i coarsest(const Vec3i& cells) { return {{cells[0] / 2, cells[1] / 2, cells[2] / 2}}; }
-
-Vec3i halved(const Vec3i& v) { return {{v[0] >> 1, v[1] >> 1, v[2] >> 1}}; }
 
 /// An eighth of a brick: corner 0 ... 7, x fastest.
 Brick inside(const Brick& brick, int corner) {
   return {brick.level + 1, brick.at * 2 + Vec3i{{corner & 1, corner >> 1 & 1, corner >> 2}}};
+}
+
+/// The place of the brick of a coarser level around a brick.
+Vec3i ancestor(const Brick& brick, int level) {
+  const int shift = brick.level - level;
+  return {{brick.at[0] >> shift, brick.at[1] >> shift, brick.at[2] >> shift}};
+}
+
+size_t corner_of(const Vec3i& at) { return static_cast<size_t>((at[0] & 1) | (at[1] & 1) << 1 | (at[2] & 1) << 2); }
+
+size_t count_of(const Vec3i& n) {
+  return static_cast<size_t>(n[0]) * static_cast<size_t>(n[1]) * static_cast<size_t>(n[2]);
 }
 
 bool within(const Vec3i& at, const Vec3i& count) {
@@ -31,50 +35,55 @@ bool within(const Vec3i& at, const Vec3i& count) {
 
 }  // namespace
 
+/// Where the number of a brick within the grid stands; null when the coarser brick around it is not there.
+uint32_t* BrickTree::place_of(const Brick& brick) {
+  const Vec3i count = coarsest(cells_), first = ancestor(brick, 1);
+  uint32_t* place =
+      &coarsest_[static_cast<size_t>(first[0]) +
+                 static_cast<size_t>(count[0]) *
+                     (static_cast<size_t>(first[1]) + static_cast<size_t>(count[1]) * static_cast<size_t>(first[2]))];
+  for (int level = 2; level <= brick.level; level++) {
+    if (*place == none) return nullptr;
+    place = &children_[*place][corner_of(ancestor(brick, level))];
+  }
+  return place;
+}
+
 bool BrickTree::add(const Brick& brick) {
   if (brick.level < 1 || brick.level > Brick::finest_level) return false;
   if (!within(brick.at, coarsest(cells_) * (1 << (brick.level - 1)))) return false;
-  if (brick.level > 1 && !find({brick.level - 1, halved(brick.at)})) return false;
-  if (!numbers_.emplace(key_of(brick), static_cast<uint32_t>(bricks_.size())).second) return false;
+  if (coarsest_.empty()) coarsest_.assign(count_of(coarsest(cells_)), none);
+  uint32_t* place = place_of(brick);
+  if (place == nullptr || *place != none) return false;
+  *place = static_cast<uint32_t>(bricks_.size());
   bricks_.push_back(brick);
+  children_.push_back({none, none, none, none, none, none, none, none});
   levels_ = std::max(levels_, brick.level);
   return true;
 }
 
 std::optional<uint32_t> BrickTree::find(const Brick& brick) const {
-  const auto found = numbers_.find(key_of(brick));
-  if (found == numbers_.end()) return std::nullopt;
-  return found->second;
+  if (empty() || !within(brick.at, coarsest(cells_) * (1 << (brick.level - 1)))) return std::nullopt;
+  const uint32_t* place = const_cast<BrickTree*>(this)->place_of(brick);
+  if (place == nullptr || *place == none) return std::nullopt;
+  return *place;
 }
 
 std::optional<uint32_t> BrickTree::finest(const Vec3f& place) const {
   std::optional<uint32_t> best;
   for (int level = 1; level <= levels_; level++) {
     const float bricks_a_cell = static_cast<float>(1 << level) / Brick::cells;
-    Brick brick{.level = level};
+    Brick brick{.level = level, .at = {}};
     for (int a = 0; a < 3; a++) {
       const int last = (cells_[a] << level) / Brick::cells - 1;
       const float at = place[a] * bricks_a_cell;
-      brick.at[a] = at > 0 ? std::min(static_cast<int>(std::min(at, static_cast<float>(last))), last) : 0;
+      brick.at[a] = at > 0 ? static_cast<int>(std::min(at, static_cast<float>(last))) : 0;
     }
     const auto found = find(brick);
     if (!found) break;
     best = found;
   }
   return best;
-}
-
-bool BrickTree::surrounds(int level, const Vec3i& corner) const {
-  const Vec3i count = coarsest(cells_) * (1 << (level - 1));
-  for (int side = 0; side < 8; side++) {
-    Brick brick{.level = level};
-    for (int a = 0; a < 3; a++) {
-      const int before = (side >> a & 1) != 0 && corner[a] % Brick::cells == 0 ? 1 : 0;
-      brick.at[a] = (corner[a] >> 2) - before;
-    }
-    if (within(brick.at, count) && !find(brick)) return false;
-  }
-  return true;
 }
 
 template <typename Coder>
@@ -86,7 +95,7 @@ bool BrickTree::code(Coder& coder, const BrickTree* wanted, size_t most) {
     return bricks_.size() < most && add(brick);
   };
   const Vec3i count = coarsest(cells_);
-  Brick first{.level = 1};
+  Brick first{.level = 1, .at = {}};
   for (first.at[2] = 0; first.at[2] < count[2]; first.at[2]++)
     for (first.at[1] = 0; first.at[1] < count[1]; first.at[1]++)
       for (first.at[0] = 0; first.at[0] < count[0]; first.at[0]++)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "lightwell/base/bytes.h"
@@ -12,8 +12,8 @@
 
 namespace lightwell {
 
-/// A cube of 4 x 4 x 4 cells of a level. Cells of level l are 2^l times smaller than the grid's on each axis, so a brick
-/// of level 1 covers 2 x 2 x 2 cells of the grid, and one of a finer level an eighth of a coarser brick.
+/// A cube of 4 x 4 x 4 cells of a level. Cells of level l are 2^l times smaller than the grid's on each axis, so a
+/// brick of level 1 covers 2 x 2 x 2 cells of the grid, and one of a finer level an eighth of a coarser brick.
 struct Brick {
   static constexpr int cells = 4;
   static constexpr int side = cells + 1;  ///< points on an axis: the corners of its cells
@@ -50,9 +50,6 @@ class BrickTree {
   std::optional<uint32_t> find(const Brick& brick) const;
   /// The finest brick that holds a place, given in cells of the grid from its first node and clamped to the grid.
   std::optional<uint32_t> finest(const Vec3f& place) const;
-  /// True when all bricks of a level that touch a corner of its cells are there; outside of the grid none is needed.
-  bool surrounds(int level, const Vec3i& corner) const;
-
   /// The same bricks level by level, as write() and read() order them.
   BrickTree ordered() const;
   /// A bit for each brick that could be there, in the order of ordered(), by the range coder.
@@ -61,12 +58,15 @@ class BrickTree {
   static std::optional<BrickTree> read(const Vec3i& cells, Bytes bytes, size_t most);
 
  private:
+  uint32_t* place_of(const Brick& brick);
   template <typename Coder>
   bool code(Coder& coder, const BrickTree* wanted, size_t most);
 
   Vec3i cells_{};
   std::vector<Brick> bricks_;
-  std::unordered_map<uint64_t, uint32_t> numbers_;
+  static constexpr uint32_t none = ~uint32_t(0);
+  std::vector<uint32_t> coarsest_;                 // the number of each brick of level 1, or none
+  std::vector<std::array<uint32_t, 8>> children_;  // of each brick
   int levels_ = 0;
 };
 

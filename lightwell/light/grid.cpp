@@ -40,13 +40,20 @@ Vec3f Moments::irradiance(const Vec3f& n) const {
   return max(sum * 0.5f, Vec3f{});
 }
 
-Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const {
+Vec3f GridShape::place_of(const Vec3f& position) const {
+  return max(Vec3f{}, min((position - lo) / cell, cells().cast<float>()));
+}
+
+namespace {
+
+/// The trilinear mean of the eight points around a place; point(n) gives moments and weight of point n, of 0 ... last.
+template <typename Point>
+Moments interpolate(const Vec3f& place, const Vec3i& last, const Point& point) {
   Vec3i first;
   Vec3f fraction;
   for (int a = 0; a < 3; a++) {
-    const float at = (point[a] - shape.lo[a]) / shape.cell[a] + normal_offset * offset_normal[a];
-    const float inside = at > 0 ? std::min(at, static_cast<float>(shape.nodes[a] - 1)) : 0.0f;
-    first[a] = std::min(static_cast<int>(inside), shape.nodes[a] - 2);
+    const float inside = place[a] > 0 ? std::min(place[a], static_cast<float>(last[a])) : 0.0f;
+    first[a] = std::min(static_cast<int>(inside), last[a] - 1);
     fraction[a] = inside - static_cast<float>(first[a]);
   }
   Moments sum;
@@ -59,17 +66,48 @@ Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& offset_normal, cons
       n[a] += upper;
       weight *= upper ? fraction[a] : 1 - fraction[a];
     }
-    const size_t node = shape.index(n);
-    weight *= node_weight(valid[node]);
-    sum += moments[node] * weight;
+    const auto [moments, own_weight] = point(n);
+    weight *= own_weight;
+    sum += *moments * weight;
     total += weight;
   }
-  return (sum * (1 / total)).irradiance(direction);
+  return sum * (1 / total);
+}
+
+}  // namespace
+
+Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const {
+  const Vec3f place = (point - shape.lo) / shape.cell;
+  const Vec3f offset = offset_normal * normal_offset;
+  const auto node = [&](const Vec3i& n) {
+    const size_t i = shape.index(n);
+    return std::pair(&moments[i], node_weight(valid[i]));
+  };
+  if (tree.empty()) return interpolate(place + offset, shape.cells(), node).irradiance(direction);
+  // The brick is looked for a little in front of a surface that may lie where two of them meet.
+  const Vec3f before = place + offset * std::ldexp(1.0f, -tree.levels());
+  if (const auto brick = tree.finest(before)) {
+    const Brick& cube = tree.bricks()[*brick];
+    const Vec3f local = place * std::ldexp(1.0f, cube.level) + offset - (cube.at * Brick::cells).cast<float>();
+    const auto brick_point = [&, &points = bricks[*brick]](const Vec3i& n) {
+      const BrickPoint& found = points[static_cast<size_t>(Brick::point(n))];
+      return std::pair(&found.moments, found.weight);
+    };
+    return interpolate(local, Vec3i::filled(Brick::cells), brick_point).irradiance(direction);
+  }
+  // What is not divided is looked up in bricks as well, as on the GPU.
+  Vec3f inside;
+  for (int a = 0; a < 3; a++) {
+    const float last = static_cast<float>(shape.cells()[a]) - 0.5f;
+    const float first = Brick::cells * std::floor(std::clamp(before[a], 0.0f, last) / Brick::cells);
+    inside[a] = std::clamp(place[a] + offset[a], first, first + Brick::cells);
+  }
+  return interpolate(inside, shape.cells(), node).irradiance(direction);
 }
 
 namespace {
 
-// The weighted means of the nine moments around an invalid node.
+/// The weighted means of the nine moments around an invalid node.
 struct Surroundings {
   Moments sum;       // E from the neighbours on the side that it faces
   Moments any_side;  // from all neighbours: S, and E where that side has none
@@ -97,48 +135,60 @@ struct Surroundings {
   }
 };
 
-// Adds up those of the 26 neighbours of a node that are filled.
-Surroundings look_around(const LightGrid& grid, const std::vector<uint8_t>& filled, size_t index) {
-  const Vec3i n = grid.shape.node(index);
+/// Adds up those of the 26 neighbours of a node of a box of nodes that are filled.
+Surroundings look_around(const Vec3i& nodes, const Vec3f& cell, std::span<const Moments> moments,
+                         const std::vector<uint8_t>& filled, size_t index) {
+  const GridShape shape{.nodes = nodes};
+  const Vec3i n = shape.node(index);
   Surroundings around;
   for (int offset = 0; offset < 27; offset++) {
     const Vec3i step{{offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1}};
     const Vec3i other = n + step;
-    if (offset == 13 || min(other, Vec3i{}) != Vec3i{} ||
-        max(other, grid.shape.nodes - Vec3i::filled(1)) != grid.shape.nodes - Vec3i::filled(1))
-      continue;
-    const size_t neighbour = grid.shape.index(other);
-    if (filled[neighbour]) around.add(grid.moments[neighbour], grid.shape.cell * step.cast<float>());
+    if (offset == 13 || min(other, Vec3i{}) != Vec3i{} || max(other, shape.cells()) != shape.cells()) continue;
+    const size_t neighbour = shape.index(other);
+    if (filled[neighbour]) around.add(moments[neighbour], cell * step.cast<float>());
   }
   return around;
 }
 
-}  // namespace
-
-void fill_invalid(LightGrid& grid) {
-  std::vector<uint8_t> filled = grid.valid;
+/// Fills what is not filled, ring by ring inwards; nodes of the same ring do not affect each other.
+void fill_rings(const Vec3i& nodes, const Vec3f& cell, std::span<Moments> moments, std::vector<uint8_t> filled) {
   std::vector<size_t> missing;
   for (size_t i = 0; i < filled.size(); i++) {
     if (!filled[i]) missing.push_back(i);
   }
-  // Fills ring by ring inwards; nodes of the same ring do not affect each other.
   while (!missing.empty()) {
     std::vector<size_t> later;
     std::vector<std::pair<size_t, Moments>> ring;
     for (const size_t i : missing) {
-      const Surroundings around = look_around(grid, filled, i);
+      const Surroundings around = look_around(nodes, cell, moments, filled, i);
       if (around.total > 0)
         ring.emplace_back(i, around.mean());
       else
         later.push_back(i);
     }
     if (ring.empty()) return;
-    for (const auto& [i, moments] : ring) {
-      grid.moments[i] = moments;
+    for (const auto& [i, mean] : ring) {
+      moments[i] = mean;
       filled[i] = 1;
     }
     missing = std::move(later);
   }
+}
+
+}  // namespace
+
+void fill_invalid(LightGrid& grid) { fill_rings(grid.shape.nodes, grid.shape.cell, grid.moments, grid.valid); }
+
+void fill_invalid(BrickPoints& points, const Vec3f& cell) {
+  std::vector<Moments> moments;
+  std::vector<uint8_t> valid;
+  for (const BrickPoint& point : points) {
+    moments.push_back(point.moments);
+    valid.push_back(point.weight > node_weight(false));
+  }
+  fill_rings(Vec3i::filled(Brick::side), cell, moments, std::move(valid));
+  for (size_t i = 0; i < points.size(); i++) points[i].moments = moments[i];
 }
 
 }  // namespace lightwell

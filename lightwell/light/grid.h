@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "lightwell/base/vector.h"
+#include "lightwell/light/bricks.h"
 
 namespace lightwell {
 
@@ -30,6 +32,9 @@ struct GridShape {
   Vec3i node(size_t index) const;
   Vec3f position(Vec3i n) const { return lo + cell * n.cast<float>(); }
   Vec3f hi() const { return position(nodes - Vec3i::filled(1)); }
+  Vec3i cells() const { return nodes - Vec3i::filled(1); }
+  /// A position in cells from the first node, clamped to the grid.
+  Vec3f place_of(const Vec3f& position) const;
   bool operator==(const GridShape&) const = default;
 
   /// The grid over `box` with `longest` nodes on its longest axis and max(2, round(size / longest size * (longest - 1))
@@ -57,20 +62,30 @@ struct Moments {
   Vec3f irradiance(const Vec3f& n) const;
 };
 
+/// The light at a point of a brick, and its weight in lookups: see node_weight.
+struct BrickPoint {
+  Moments moments;
+  float weight = 1;
+};
+using BrickPoints = std::array<BrickPoint, Brick::points>;
+
 /// The irradiance vector grid of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex
 /// Geometry and Complex Lighting", Web3D 2008, section 3) and R09 (Pacanowski et al., "Volumetric Vector-Based
 /// Representation for Indirect Illumination Caching", INRIA RR-6983, 2009), stored as moments, with the validity of
-/// each node.
+/// each node. Where the light changes quickly the grid may be divided into bricks (R09's "multiresolution and adaptive
+/// structure").
 struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()
   std::vector<uint8_t> valid;    ///< 1 for a node in free space, 0 inside a solid
   float normal_offset = 0.5f;    ///< lookups are shifted by this many cells along the normal (docs/light.md section 5)
+  BrickTree tree;                ///< empty in a regular grid
+  std::vector<BrickPoints> bricks;  ///< the points of the tree's bricks: see place_brick
 
   /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`. Interpolates
-  /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, weighted by node_weight.
-  /// The direction is the normal for diffuse reflection and the mirrored view direction for specular reflection. Points
-  /// outside are clamped to the grid.
+  /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, weighted by node_weight;
+  /// the cell is that of the finest brick there. The direction is the normal for diffuse reflection and the mirrored
+  /// view direction for specular reflection. Points outside are clamped to the grid.
   Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
   /// The same for diffuse reflection, in the direction of the normal.
   Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const { return irradiance(point, normal, normal); }
@@ -81,10 +96,44 @@ struct LightGrid {
 /// their fill.
 constexpr float node_weight(bool valid) { return valid ? 1.0f : 0x1p-13f; }
 
+/// Sets the points of a brick, of which all coarser bricks are placed: its finer_points() are those of `nodes`, and on
+/// the corners of coarser cells it has their light. What lies on the border of a coarser cell is a node as well: the
+/// mean of that cell's corners would be that of a place farther off the surfaces than a finer cell's lookups are.
+void place_brick(LightGrid& grid, uint32_t brick, const BrickPoints& nodes);
+
+/// The points of a brick between the corners of coarser cells: first those on their edges, then those in their faces,
+/// then those in their middle.
+std::vector<int> finer_points();
+
+/// A node that bricks add to a grid: the brick that has it first, and its point there.
+struct BrickNode {
+  uint32_t brick = 0;
+  int point = 0;
+};
+
+/// The nodes that bricks add to a grid: the points for which place_brick asks.
+class BrickNodes {
+ public:
+  explicit BrickNodes(const BrickTree& tree);
+  /// In the order of the bricks, in a brick in that of finer_points().
+  std::span<const BrickNode> nodes() const { return nodes_; }
+  /// The number of the first node of each brick, and at the end the number of all.
+  std::span<const uint32_t> first() const { return first_; }
+  /// The number of the node at one of the finer_points() of a brick, which may be another brick's.
+  uint32_t at(uint32_t brick, int point) const { return numbers_[brick][static_cast<size_t>(point)]; }
+
+ private:
+  std::vector<BrickNode> nodes_;
+  std::vector<uint32_t> first_;
+  std::vector<std::array<uint32_t, Brick::points>> numbers_;
+};
+
 /// Fills invalid nodes with the light of the free space around them (docs/light.md section 5): E_d is the mean of the
 /// neighbours on the d side, weighted by cos^2 / distance^2, and S the mean of all neighbours, weighted by 1 /
 /// distance^2. Nodes deep inside solids are filled from those filled before them. Valid nodes never change, nor does a
-/// grid without any.
+/// grid without any. Bricks are left alone.
 void fill_invalid(LightGrid& grid);
+/// The same for the points of a brick, whose valid ones are placed.
+void fill_invalid(BrickPoints& points, const Vec3f& cell);
 
 }  // namespace lightwell

@@ -59,7 +59,7 @@ struct LightStreamOptions {
 };
 
 /// Encodes a whole grid: the corners in the layout, then bundles in light_order. Fails for shapes beyond LightLayout's
-/// limits. Invalid nodes should have been filled (fill_invalid).
+/// limits and for grids with bricks. Invalid nodes should have been filled (fill_invalid).
 Result<LightStream> encode_light(const LightGrid& grid, const LightStreamOptions& options = {});
 
 /// Decodes a light stream. After open and every append, the known nodes of grid() are final and the others dark;

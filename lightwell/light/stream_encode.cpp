@@ -89,6 +89,7 @@ class BundleEncoder {
 };
 
 Result<void> check_shape(const LightGrid& grid) {
+  if (!grid.tree.empty()) return fail(ErrorKind::unsupported, "light grid", "the order of slices knows no bricks");
   for (const int n : grid.shape.nodes.e) {
     if (n < 2 || n > LightLayout::most_nodes_an_axis)
       return fail("light grid", "an axis has " + std::to_string(n) + " nodes, not 2 to " +

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "lightwell/light/stream.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/packing/grids_extension.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/mesh_extension.h"
@@ -21,7 +21,8 @@ void use_extension(Json& json, const char* name) {
 std::vector<GridDescription> describe(const PackLight& light, const PackContent& content) {
   std::vector<GridDescription> grids;
   for (const PackGrid& grid : light.grids)
-    grids.push_back({static_cast<uint32_t>(content.grid_stream(grids.size())), grid.grid->shape, light_codec_slices,
+    grids.push_back({static_cast<uint32_t>(content.grid_stream(grids.size())), grid.grid->shape,
+                     grid.order == LightNodeOrder::slices ? light_codec_slices : light_codec_lattice,
                      grid.grid->normal_offset, grid.estimated_error, grid.priority, grid.contains});
   return grids;
 }

@@ -8,13 +8,20 @@
 
 namespace lightwell {
 
+/// The order in which the nodes of a grid are streamed, each a codec of its own.
+enum class LightNodeOrder : uint8_t {
+  lattice,  ///< from coarse to fine, then bricks
+  slices    ///< random ones from every slice, as in S08; not for grids with bricks
+};
+
 /// A light grid to be packed.
 struct PackGrid {
   const LightGrid* grid = nullptr;
   GridContents contains{};
   float estimated_error = 0;  ///< RMS error as a fraction of the grid's RMS
   int priority = 0;           ///< where grids of the same contents overlap, the highest priority is looked up
-  uint64_t seed = 1;          ///< of the order in which its nodes are streamed
+  LightNodeOrder order = LightNodeOrder::lattice;
+  uint64_t seed = 1;  ///< of the order of slices
 };
 
 /// The light of a scene to be packed.

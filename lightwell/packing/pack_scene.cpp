@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "lightwell/light/stream.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/self_contained.h"
 #include "lightwell/packing/pack_json.h"
@@ -83,11 +83,12 @@ BasePlaces places_of(const Json& json, const Json& primitive) {
   return places;
 }
 
-Result<PackStream> light_stream(const PackGrid& grid) {
-  LW_TRY(encoded, encode_light(*grid.grid, {.seed = grid.seed}));
+/// A light stream of either codec, which `encoded` is of.
+template <typename Encoded>
+PackStream light_stream(Encoded encoded, uint8_t codec) {
   PackStream stream;
   stream.kind = StreamKind::light;
-  stream.codec = light_codec_slices;
+  stream.codec = codec;
   ByteWriter parameters;
   encoded.layout.write(parameters);
   stream.parameters = parameters.release();
@@ -96,6 +97,15 @@ Result<PackStream> light_stream(const PackGrid& grid) {
   for (LightBundle& bundle : encoded.bundles)
     stream.blocks.push_back({std::move(bundle.payload), bundle.nodes, bundle.error});
   return stream;
+}
+
+Result<PackStream> light_stream(const PackGrid& grid) {
+  if (grid.order == LightNodeOrder::slices) {
+    LW_TRY(encoded, encode_light(*grid.grid, {.seed = grid.seed}));
+    return light_stream(std::move(encoded), light_codec_slices);
+  }
+  LW_TRY(encoded, encode_lattice(*grid.grid));
+  return light_stream(std::move(encoded), light_codec_lattice);
 }
 
 PackStream mesh_stream(StreamedMesh& mesh, const Json& json, const Json& primitive) {

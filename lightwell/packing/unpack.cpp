@@ -132,9 +132,7 @@ Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const Ligh
       append_blocks(pack, stream, *light, [&](uint32_t) { return static_cast<double>(light->received()) < wanted; }));
   if (level.share >= 1 && !light->complete())
     return fail("stream " + std::to_string(stream), "the light grid is not complete");
-  LightGrid grid = light->grid();
-  push_pull(grid, light->known(), level.fill);
-  return grid;
+  return light->filled(level.fill);
 }
 
 }  // namespace lightwell

@@ -51,7 +51,7 @@ Result<void> verify_plain_form(const OpenedPack& pack) {
 Result<void> verify_grids(const OpenedPack& pack) {
   for (const GridDescription& grid : pack.grids()) {
     LW_TRY(light, open_asset_as<LightAsset>(pack.reader(), grid.stream));
-    if (grid.shape != light->grid().shape || grid.normal_offset != light->grid().normal_offset ||
+    if (grid.shape != light->shape() || grid.normal_offset != light->normal_offset() ||
         grid.codec != entry_of(pack, grid.stream).codec)
       return differs(grids_extension, "a grid");
   }

@@ -9,8 +9,8 @@ namespace lightwell {
 /// A case of the room asset: the stream's kind and codec, a byte each, its parameters, the BIN chunk of the opening,
 /// then the payloads.
 inline Case asset_case(StreamKind kind, std::vector<uint8_t> parameters, std::vector<uint8_t> bin,
-                       std::vector<std::vector<uint8_t>> payloads) {
-  Case one{Room::asset, {{static_cast<uint8_t>(kind), 0}, std::move(parameters), std::move(bin)}};
+                       std::vector<std::vector<uint8_t>> payloads, uint8_t codec = 0) {
+  Case one{Room::asset, {{static_cast<uint8_t>(kind), codec}, std::move(parameters), std::move(bin)}};
   for (std::vector<uint8_t>& payload : payloads) one.parts.push_back(std::move(payload));
   return one;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/cases/generate.h"
 
-#include "lightwell/light/stream.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/mesh/progressive.h"
 #include "lightwell/texture/stream.h"
 #include "tests/asset/asset_case.h"
 #include "tests/client/sample_pack.h"
-#include "tests/light/light_fields.h"
+#include "tests/light/brick_fields.h"
 #include "tests/mesh/level.h"
 #include "tests/mesh/shapes.h"
 #include "tests/pack/pack_samples.h"
@@ -69,6 +69,16 @@ Case asset_case_of(const Case& one) {
   return asset_case(kind, one.parts[0], mesh ? one.parts[1] : std::vector<uint8_t>(), {payloads, one.parts.end()});
 }
 
+/// A grid of the lattice codec for the table of codecs.
+Case lattice_case(const LightGrid& grid) {
+  const LatticeStream stream = encode_lattice(grid).value();
+  ByteWriter parameters;
+  stream.layout.write(parameters);
+  std::vector<std::vector<uint8_t>> payloads;
+  for (const LightBundle& bundle : stream.bundles) payloads.push_back(bundle.payload);
+  return asset_case(StreamKind::light, parameters.release(), {}, std::move(payloads), light_codec_lattice);
+}
+
 }  // namespace
 
 std::vector<Case> generate_cases() {
@@ -81,6 +91,7 @@ std::vector<Case> generate_cases() {
   for (const uint32_t length : {1u, 32768u, 100000u}) cases.push_back(texture_case(random, length));
   for (size_t i = 0, count = cases.size(); i < count; i++)
     if (cases[i].room != Room::base) cases.push_back(asset_case_of(cases[i]));
+  for (const int bricks : {0, 1, 20}) cases.push_back(lattice_case(bricked_grid(7, bricks)));
   cases.push_back({Room::pack, {make_pack(random_bytes(random, 100), random_streams(seed))}});
   cases.push_back({Room::pack, {sample_pack(sample_scene(2000, 8))}});
   return cases;

@@ -73,6 +73,19 @@ TEST_F(Commands, BakeReportsTheContractedKeys) {
   EXPECT_EQ(figures["photons"], 20000);
 }
 
+TEST_F(Commands, EveryKindOfGridIsPackedAndRead) {
+  for (const std::string options : {"--grid adaptive", "--grid 6 --order slices", "--grid 6 --order lattice"}) {
+    const std::string pack = path("kind.glb");
+    ASSERT_EQ(run("bake box-small -o " + pack + " --photons 20k --quiet " + options).status, 0) << options;
+    EXPECT_EQ(run("verify " + pack).status, 0) << options;
+    EXPECT_EQ(run("render " + pack + " --integrator ivg --spp 1 --size 16x9 -o " + path("k.png")).status, 0) << options;
+  }
+  const Outcome refused = run("bake box-small --grid adaptive --order slices --photons 20k -o " + path("no.glb"));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_NE(refused.err.find("knows no bricks"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(path("no.glb")));
+}
+
 TEST_F(Commands, TheSameSeedGivesTheSameBytesForAnyThreads) {
   const std::string one = read(small_pack("--threads 1"));
   EXPECT_EQ(read(small_pack("--threads 3")), one);

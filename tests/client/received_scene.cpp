@@ -154,7 +154,7 @@ std::vector<uint8_t> atlas_of(const LightDecoder& decoder, Fill fill) {
   LightGrid grid = decoder.grid();
   push_pull(grid, decoder.known(), fill);
   atlas.update(grid);
-  return copy({reinterpret_cast<const uint8_t*>(atlas.halves.data()), atlas.halves.size() * 2});
+  return copy({reinterpret_cast<const uint8_t*>(atlas.halves().data()), atlas.halves().size_bytes()});
 }
 
 std::vector<uint8_t> decode_light(const PackReader& reader, uint32_t stream) {

@@ -27,8 +27,8 @@ test('the chunks of three.js are those that the lookup was written for', () => {
   }
 });
 
-test('a material receives the irradiance that light/ computes, wherever the grid stands', async (t) => {
-  const fixture = JSON.parse(await readFile(`${ROOT}tests/data/light/lookup.json`, 'utf8'));
+for (const [kind, number] of [['regular', 0], ['divided', 1]]) test(`a material receives the irradiance that light/ computes of a ${kind} grid, wherever it stands`, async (t) => {
+  const fixture = JSON.parse(await readFile(`${ROOT}tests/data/light/lookup.json`, 'utf8'))[number];
   const server = await forTest(t, startStaticServer(await scriptPage('tests/e2e/pages/lookup.ts')));
   const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);

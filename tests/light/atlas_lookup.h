@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,7 +22,7 @@ class AtlasLookup {
                                                         (static_cast<size_t>(y) + static_cast<size_t>(atlas_.height()) *
                                                                                       static_cast<size_t>(slice)));
     Vec4f v;
-    for (int lane = 0; lane < 4; lane++) v[lane] = from_half(atlas_.halves[at + static_cast<size_t>(lane)]);
+    for (int lane = 0; lane < 4; lane++) v[lane] = from_half(atlas_.halves()[at + static_cast<size_t>(lane)]);
     return v;
   }
 
@@ -49,15 +50,37 @@ class AtlasLookup {
     return sum;
   }
 
-  /// Irradiance at a place given in nodes (0 ... nodes - 1), for a lookup already moved along the normal.
+  /// Irradiance of a regular grid at a place given in nodes (0 ... nodes - 1), for a lookup already moved along the
+  /// normal.
   Vec3f irradiance(const Vec3f& node, const Vec3f& n) const {
-    const Vec3f count = atlas_.nodes.cast<float>();
-    const Vec3f at = max(Vec3f{}, min(node, count - Vec3f::filled(1)));
-    const float padded = count[2] + 2;
+    const float layers = static_cast<float>(atlas_.depth()) / 7;
+    const Vec3f last{{static_cast<float>(atlas_.width() - 1), static_cast<float>(atlas_.height() - 1), layers - 3}};
+    return evaluate(max(Vec3f{}, min(node, last)) + Vec3f{{0, 0, 1}}, layers, n);
+  }
+
+  /// The same for a grid with bricks, as shaders/light_grid.glsl does it: `place` in cells of the grid.
+  Vec3f irradiance_of_bricks(const Vec3f& place, const Vec3f& n) const {
+    const Vec4f header = texel(0, 0, 0), parts = texel(1, 0, 0), cells = texel(2, 0, 0);
+    const Vec3f last{{cells[0], cells[1], cells[2]}}, offset = n * header[3];
+    const float finest = std::exp2(parts[1]);
+    const Vec3f before = max(Vec3f{}, min(place + offset / finest, last - Vec3f::filled(0.5f / finest)));
+    const Vec3f cube = before * (finest / 4);
+    const Vec4f brick = texel(static_cast<int>(cube[0]), static_cast<int>(cube[1]), 1 + static_cast<int>(cube[2]));
+    const float level = std::exp2(brick[3]);
+    Vec3f local;
+    for (int a = 0; a < 3; a++)
+      local[a] = std::clamp(place[a] * level + offset[a] - 4 * std::floor(before[a] * level / 4), 0.0f, 4.0f);
+    return evaluate(local + Vec3f{{brick[0], brick[1], brick[2] + parts[3]}}, parts[2], n);
+  }
+
+ private:
+  /// From seven texels, `next` slices from one to the next.
+  Vec3f evaluate(const Vec3f& first, float next, const Vec3f& n) const {
+    const Vec3f size = Vec3i{{atlas_.width(), atlas_.height(), atlas_.depth()}}.cast<float>();
     std::array<float, 28> channels;
     for (int t = 0; t < 7; t++) {
-      const float w = (at[2] + 0.5f + 1 + static_cast<float>(t) * padded) / (7 * padded);
-      const Vec4f value = texture({{(at[0] + 0.5f) / count[0], (at[1] + 0.5f) / count[1], w}});
+      const Vec3f at = first + Vec3f{{0.5f, 0.5f, 0.5f + static_cast<float>(t) * next}};
+      const Vec4f value = texture(at / size);
       for (int lane = 0; lane < 4; lane++) channels[static_cast<size_t>(4 * t + lane)] = value[lane];
     }
     const std::array<float, 9> basis{0.886227f,
@@ -74,7 +97,6 @@ class AtlasLookup {
     return max(sum / channels[27], Vec3f{});
   }
 
- private:
   const LightAtlas& atlas_;
 };
 

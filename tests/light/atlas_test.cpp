@@ -9,7 +9,7 @@
 
 #include "lightwell/light/record.h"
 #include "tests/light/atlas_lookup.h"
-#include "tests/light/light_fields.h"
+#include "tests/light/brick_fields.h"
 
 namespace lightwell {
 namespace {
@@ -40,7 +40,10 @@ TEST(SphericalHarmonics, AreTheMomentsExactly) {
     Moments lit = m;
     lit += parallel_light(random_direction(random), random_colour(random));
     LightAtlas atlas(GridShape{}, 0, 1);
-    atlas.update(LightGrid{GridShape{}, std::vector<Moments>(8, lit), std::vector<uint8_t>(8, 1), 0});
+    LightGrid grid;
+    grid.moments.assign(8, lit);
+    grid.valid.assign(8, 1);
+    atlas.update(grid);
     const Vec3f n = random_direction(random);
     const Vec3f a = AtlasLookup(atlas).irradiance({}, n), b = lit.irradiance(n);
     for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], half_rounding);
@@ -52,13 +55,52 @@ TEST(LightAtlas, LooksUpWhatTheGridDoes) {
     const LightGrid grid = some_grid(seed);
     LightAtlas atlas(grid.shape, grid.normal_offset, light_scale(grid));
     atlas.update(grid);
-    EXPECT_EQ(atlas.halves.size(), static_cast<size_t>(atlas.width() * atlas.height() * atlas.depth() * 4));
+    EXPECT_EQ(atlas.halves().size(), static_cast<size_t>(atlas.width() * atlas.height() * atlas.depth() * 4));
     Random random(seed, 1);
     for (int i = 0; i < 100; i++) {
       const Vec3f p = somewhere(random, grid.shape), n = random_direction(random);
       const Vec3f node = (p - grid.shape.lo) / grid.shape.cell + n * grid.normal_offset;
       const Vec3f a = AtlasLookup(atlas).irradiance(node, n), b = grid.irradiance(p, n);
       for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], half_rounding * largest_irradiance(grid));
+    }
+  }
+}
+
+TEST(LightAtlas, LooksUpWhatAGridWithBricksDoes) {
+  for (uint64_t seed = 0; seed < 20; seed++) {
+    const LightGrid grid = bricked_grid(seed, 1 + 3 * static_cast<int>(seed));
+    LightAtlas atlas(grid.shape, grid.normal_offset, light_scale(grid), grid.tree);
+    EXPECT_EQ(atlas.halves().size(), 4 * LightAtlas::texels(grid.shape, grid.tree));
+    atlas.update(grid);
+    Random random(seed, 1);
+    for (int i = 0; i < 200; i++) {
+      const Vec3f p = somewhere(random, grid.shape), n = random_direction(random);
+      const Vec3f place = (p - grid.shape.lo) / grid.shape.cell;
+      const Vec3f a = AtlasLookup(atlas).irradiance_of_bricks(place, n), b = grid.irradiance(p, n);
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], half_rounding * largest_irradiance(grid)) << "at " << i;
+    }
+  }
+}
+
+// Bricks that have not come yet show the coarser cells around them.
+TEST(LightAtlas, LooksUpWhatHasComeOfTheBricks) {
+  const LightGrid whole = bricked_grid(4, 40);
+  LightAtlas atlas(whole.shape, whole.normal_offset, light_scale(whole), whole.tree);
+  for (size_t count = 1; count <= whole.bricks.size(); count++) {
+    LightGrid grid = whole;
+    grid.tree = BrickTree(whole.shape.cells());
+    for (size_t brick = 0; brick < count; brick++) grid.tree.add(whole.tree.bricks()[brick]);
+    grid.bricks.resize(count);
+    atlas.update(grid);
+    // The brick is looked for in front of the surface by the finest cells of all bricks, so not within those of a
+    // border.
+    Random random(count, 1);
+    for (int i = 0; i < 20; i++) {
+      const Vec3f p = somewhere(random, grid.shape), n = random_direction(random);
+      const Vec3f place = (p - grid.shape.lo) / grid.shape.cell, finest = place + n * grid.normal_offset / 8.0f;
+      if (grid.tree.finest(place) != grid.tree.finest(finest)) continue;
+      const Vec3f a = AtlasLookup(atlas).irradiance_of_bricks(place, n), b = grid.irradiance(p, n);
+      for (int c = 0; c < 3; c++) EXPECT_NEAR(a[c], b[c], half_rounding * largest_irradiance(grid)) << count;
     }
   }
 }
@@ -77,16 +119,12 @@ TEST(LightAtlas, WeightsAreNormalHalves) {
   }
 }
 
-// tests/data/light/lookup.json is what the page's shader is tested against in a browser: an atlas, placements as
-// uniforms, world points and normals, and the irradiance that they must give. LIGHTWELL_UPDATE_TEST_DATA=1 writes it
-// anew.
-std::string lookup_fixture() {
-  GridShape shape{{{-1, 0, 2}}, {{0.5f, 0.75f, 0.25f}}, {{3, 2, 4}}};
-  LightGrid grid = lamp_grid(shape, 11);
-  grid.normal_offset = 0.375f;
-  grid.valid[shape.index({{1, 1, 2}})] = 0;
-  fill_invalid(grid);
-  LightAtlas atlas(shape, grid.normal_offset, light_scale(grid));
+// tests/data/light/lookup.json is what the page's shader is tested against in a browser: a regular grid and one with
+// bricks, each an atlas, placements as uniforms, world points and normals, and the irradiance that they must give.
+// LIGHTWELL_UPDATE_TEST_DATA=1 writes it anew.
+std::string lookup_fixture(const LightGrid& grid) {
+  const GridShape& shape = grid.shape;
+  LightAtlas atlas(shape, grid.normal_offset, light_scale(grid), grid.tree);
   atlas.update(grid);
 
   std::ostringstream json;
@@ -96,9 +134,11 @@ std::string lookup_fixture() {
     for (size_t i = 0; i < values.size(); i++) json << (i ? "," : "") << values[i];
     json << "]";
   };
-  json << "{\"width\":" << atlas.width() << ",\"height\":" << atlas.height() << ",\"depth\":" << atlas.depth()
+  json << "{\"nodes\":";
+  list(shape.nodes.e);
+  json << ",\"width\":" << atlas.width() << ",\"height\":" << atlas.height() << ",\"depth\":" << atlas.depth()
        << ",\n\"halves\":";
-  list(atlas.halves);
+  list(atlas.halves());
   const float half = std::sqrt(0.5f);
   const std::array<GridPlacement, 4> placements{{{{}, {{0, 0, 0, 1}}, {{1, 1, 1}}},
                                                  {{{5, -2, 1}}, {{0, half, 0, half}}, {{2, 2, 2}}},
@@ -127,13 +167,24 @@ std::string lookup_fixture() {
     }
     json << "]}";
   }
-  json << "]}\n";
+  json << "]}";
+  return json.str();
+}
+
+std::string lookup_fixtures() {
+  GridShape shape{{{-1, 0, 2}}, {{0.5f, 0.75f, 0.25f}}, {{3, 2, 4}}};
+  LightGrid grid = lamp_grid(shape, 11);
+  grid.normal_offset = 0.375f;
+  grid.valid[shape.index({{1, 1, 2}})] = 0;
+  fill_invalid(grid);
+  std::ostringstream json;
+  json << "[" << lookup_fixture(grid) << ",\n" << lookup_fixture(bricked_grid(6, 6)) << "]\n";
   return json.str();
 }
 
 TEST(LightAtlas, ThePagesFixtureIsCurrent) {
   const std::string path = LIGHTWELL_TEST_DATA "/light/lookup.json";
-  const std::string current = lookup_fixture();
+  const std::string current = lookup_fixtures();
   if (std::getenv("LIGHTWELL_UPDATE_TEST_DATA")) std::ofstream(path) << current;
   std::ostringstream stored;
   stored << std::ifstream(path).rdbuf();

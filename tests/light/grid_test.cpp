@@ -108,7 +108,10 @@ TEST(Moments, AreNeverNegative) {
 // E is linear between nodes where the light is.
 TEST(LightGrid, InterpolatesLinearly) {
   GridShape shape = GridShape::over({{{0, 0, 0}}, {{1, 1, 1}}}, 5);
-  LightGrid grid{shape, {}, std::vector<uint8_t>(shape.count(), 1), 0};
+  LightGrid grid;
+  grid.shape = shape;
+  grid.valid.assign(shape.count(), 1);
+  grid.normal_offset = 0;
   const auto light = [](const Vec3f& p) { return 1 + p[0] + 2 * p[1] + 3 * p[2]; };
   for (size_t i = 0; i < shape.count(); i++)
     grid.moments.push_back(uniform_light(Vec3f::filled(light(shape.position(shape.node(i))))));
@@ -147,7 +150,11 @@ TEST(LightGrid, AnythingIsAPoint) {
 // invalid node times the filled value, at most 2^-13 over the weight of the valid nodes, here at least 0.1.
 TEST(LightGrid, InvalidNodesDoNotLeak) {
   const GridShape shape = GridShape::over({{{0, 0, 0}}, {{10, 2, 2}}}, 11);
-  LightGrid grid{shape, std::vector<Moments>(shape.count()), std::vector<uint8_t>(shape.count(), 1), 0};
+  LightGrid grid;
+  grid.shape = shape;
+  grid.moments.resize(shape.count());
+  grid.valid.assign(shape.count(), 1);
+  grid.normal_offset = 0;
   for (size_t i = 0; i < shape.count(); i++) {
     const int x = shape.node(i)[0];
     if (x < 5) grid.moments[i] = uniform_light({{1, 1, 1}});
@@ -165,7 +172,11 @@ TEST(LightGrid, InvalidNodesDoNotLeak) {
 // Inside the wall each side's surface normal finds its own room's light.
 TEST(FillInvalid, TakesEachDirectionFromItsOwnSide) {
   const GridShape shape = GridShape::over({{{0, 0, 0}}, {{4, 2, 2}}}, 5);
-  LightGrid grid{shape, std::vector<Moments>(shape.count()), std::vector<uint8_t>(shape.count(), 1), 0};
+  LightGrid grid;
+  grid.shape = shape;
+  grid.moments.resize(shape.count());
+  grid.valid.assign(shape.count(), 1);
+  grid.normal_offset = 0;
   for (size_t i = 0; i < shape.count(); i++) {
     const int x = shape.node(i)[0];
     grid.moments[i] = uniform_light(Vec3f::filled(x < 2 ? 1.0f : 0.0f));

@@ -115,8 +115,10 @@ TEST(PushPull, ApproximatesSmoothLight) {
 // A missing node takes the validity of most of its surroundings, and the light of the valid ones among them.
 TEST(PushPull, GuessesValidity) {
   const GridShape shape = GridShape::over({{{0, 0, 0}}, {{7, 7, 7}}}, 8);
-  LightGrid grid{shape, std::vector<Moments>(shape.count(), uniform_light({{1, 1, 1}})),
-                 std::vector<uint8_t>(shape.count(), 1), 0.5f};
+  LightGrid grid;
+  grid.shape = shape;
+  grid.moments.assign(shape.count(), uniform_light({{1, 1, 1}}));
+  grid.valid.assign(shape.count(), 1);
   std::vector<uint8_t> known(shape.count(), 1);
   for (size_t i = 0; i < shape.count(); i++) {
     if (shape.node(i)[0] >= 4) {

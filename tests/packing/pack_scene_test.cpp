@@ -144,8 +144,8 @@ TEST(MakePack, KeepsTheLight) {
   ASSERT_TRUE(grid);
   const LightGrid wanted = some_light(packed.scene.bounds());
   const Vec3f center = packed.scene.bounds().center(), up{{0, 1, 0}};
-  // RGB9E5 keeps nine bits of the largest channel: half a step is 2^-9 of it, S in 1/127.
-  EXPECT_NEAR(grid->irradiance(center, up)[2] / wanted.irradiance(center, up)[2], 1, 0.004f);
+  // Half a step of the logarithm, a 32nd of an octave, is 1.1 %.
+  EXPECT_NEAR(grid->irradiance(center, up)[2] / wanted.irradiance(center, up)[2], 1, 0.011f);
 }
 
 // Two grids: the first streams, in the order given, each with what it holds.

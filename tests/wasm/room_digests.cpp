@@ -121,7 +121,7 @@ void fill_and_look_up(const LightDecoder& decoder, Digest& digest) {
     look_up(grid, digest);
     LightAtlas atlas(grid.shape, grid.normal_offset, decoder.layout().scale);
     atlas.update(grid);
-    digest.add(atlas.halves);
+    digest.add(atlas.halves());
     fill_invalid(grid);
     digest.add(grid.moments);
     digest.add(light_scale(grid));

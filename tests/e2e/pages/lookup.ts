@@ -20,6 +20,7 @@ import { LightwellLight } from '../../../web/src/three/light.js';
 type Triple = [number, number, number];
 
 interface Fixture {
+  nodes: Triple;
   width: number;
   height: number;
   depth: number;
@@ -53,11 +54,10 @@ function irradiance(scene: Scene, mesh: Mesh, point: Vector3, normal: Vector3): 
 
 /** The irradiance of all samples, a list for each placement of the grid. */
 export function run(fixture: Fixture): Triple[][] {
-  const layers = fixture.depth / 7 - 2;
-  const nodes: Triple = [fixture.width, fixture.height, layers];
+  const { nodes, width, height, depth } = fixture;
   const cell: Triple = [0.5, 0.25, 0.125];
   const definition = { stream: 0, min: [0, 0, 0] as Triple, cell, nodes, normalOffset: 0.5 };
-  const light = new LightwellLight(definition, new Uint16Array(fixture.halves));
+  const light = new LightwellLight(definition, { atlas: new Uint16Array(fixture.halves), width, height, depth });
   const holder = new Group().add(light);
   const mesh = new Mesh(new BufferGeometry(), new MeshLambertMaterial());
   mesh.frustumCulled = false;

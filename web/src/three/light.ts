@@ -13,8 +13,6 @@ import {
 import type { LightGridDefinition } from './extensions.js';
 import { installLightChunks } from './shader_chunks.js';
 
-/** Seven RGBA texels hold the nine RGB coefficients of a node and its weight. */
-const SUB_VOLUMES = 7;
 const HALF_ONE = 0x3c00;
 
 /**
@@ -39,7 +37,7 @@ export class LightwellLight extends Light {
   /** `atlas`: the texels of lightwell/light/atlas.h. LightRefinement brings finer ones. */
   constructor(
     readonly definition: LightGridDefinition,
-    atlas: Uint16Array<ArrayBuffer>,
+    atlas: LightAtlas,
   ) {
     super();
     installLightChunks();
@@ -65,17 +63,23 @@ export class LightwellLight extends Light {
   }
 }
 
+/** The texels of a grid, half floats. */
+export interface LightAtlas {
+  readonly atlas: Uint16Array<ArrayBuffer>;
+  readonly width: number;
+  readonly height: number;
+  readonly depth: number;
+}
+
 /**
  * A filtered texture of a grid's texels, with a mark in the second one, which no lookup filters: whether the grid holds the light
  * of the environment; the shader then leaves out the diffuse part of `scene.environment`. Throws when their number is wrong.
  */
-export function atlasTexture(atlas: Uint16Array<ArrayBuffer>, definition: LightGridDefinition): Data3DTexture {
-  const { stream, nodes, contains } = definition;
-  const depth = SUB_VOLUMES * (nodes[2] + 2);
-  if (atlas.length !== 4 * nodes[0] * nodes[1] * depth)
-    throw new Error(`the light of stream ${stream} has another size than its grid`);
-  atlas[4] = contains?.includes('environment') === true ? HALF_ONE : 0;
-  const texture = new Data3DTexture(atlas, nodes[0], nodes[1], depth);
+export function atlasTexture({ atlas, width, height, depth }: LightAtlas, definition: LightGridDefinition): Data3DTexture {
+  if (atlas.length !== 4 * width * height * depth)
+    throw new Error(`the light of stream ${definition.stream} has another size than its texture`);
+  atlas[4] = definition.contains?.includes('environment') === true ? HALF_ONE : 0;
+  const texture = new Data3DTexture(atlas, width, height, depth);
   texture.format = RGBAFormat;
   texture.type = HalfFloatType;
   texture.minFilter = texture.magFilter = LinearFilter;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { Box3, type Data3DTexture, Vector3, type WebGLRenderer } from 'three';
 import type { LightEvent } from '../core/protocol.js';
-import { atlasTexture, type LightwellLight } from './light.js';
+import { atlasTexture, type LightAtlas, type LightwellLight } from './light.js';
 import type { Refinement } from './refinement.js';
 import { RowSweep } from './row_sweep.js';
 import type { UploadBudget } from './upload_budget.js';
@@ -26,7 +26,7 @@ export class LightRefinement implements Refinement {
   constructor(light: LightwellLight, renderer: WebGLRenderer) {
     this.#light = light;
     this.#renderer = renderer;
-    this.#hidden = atlasTexture(texelsOf(light.texture), light.definition);
+    this.#hidden = atlasTexture(atlasOf(light.texture), light.definition);
     const { width, height, depth } = light.texture.image;
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
     for (const texture of [light.texture, this.#hidden]) renderer.initTexture(texture);
@@ -36,9 +36,12 @@ export class LightRefinement implements Refinement {
     return this.#current !== null || this.#waiting !== null;
   }
 
-  /** A newer state takes the place of one that has not begun to be handed over. */
+  /** A newer state takes the place of one that has not begun to be handed over. Throws when it is of another size. */
   receive(event: LightEvent): void {
-    const state = atlasTexture(event.atlas, this.#light.definition);
+    const { width, height, depth } = this.#light.texture.image;
+    if (event.width !== width || event.height !== height || event.depth !== depth)
+      throw new Error(`the light of stream ${this.#light.definition.stream} has another size than before`);
+    const state = atlasTexture(event, this.#light.definition);
     if (this.#waiting !== null) this.#consumed += texelsOf(this.#waiting).byteLength;
     this.#waiting = state;
   }
@@ -91,6 +94,11 @@ export class LightRefinement implements Refinement {
 
 function texelsOf(texture: Data3DTexture): Uint16Array<ArrayBuffer> {
   return texture.image.data as Uint16Array<ArrayBuffer>;
+}
+
+function atlasOf(texture: Data3DTexture): LightAtlas {
+  const { width, height, depth } = texture.image;
+  return { atlas: texelsOf(texture), width, height, depth };
 }
 
 /** Throws when the GPU's 3D textures cannot be of this one's size. */

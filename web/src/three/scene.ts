@@ -123,7 +123,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     options: SceneOptions,
   ) {
     const definitions = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
-    const grids = definitions.map((grid, i) => new LightwellLight(grid, lights[i]!.atlas));
+    const grids = definitions.map((grid, i) => new LightwellLight(grid, lights[i]!));
     for (const { texture } of grids) checkSize(texture, renderer);
     const images = new Map<number, TextureRefinement>();
     for (const [asset, { extension, textures }] of opening.images)

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The points of bricks: which are nodes, and how the others follow from coarser cells.
+#include <bit>
+
+#include "lightwell/base/assert.h"
+#include "lightwell/light/grid.h"
+
+namespace lightwell {
+namespace {
+
+/// The axes on which a point lies between the corners of coarser cells, as bits.
+int axes_between(const Vec3i& local) { return (local[0] & 1) | (local[1] & 1) << 1 | (local[2] & 1) << 2; }
+
+/// The light of coarser cells around a brick.
+class Coarser {
+ public:
+  Coarser(const LightGrid& grid, const Brick& brick) : grid_(grid) {
+    if (brick.level == 1) {
+      first_ = brick.at * 2;
+      return;
+    }
+    const Vec3i at{{brick.at[0] >> 1, brick.at[1] >> 1, brick.at[2] >> 1}};
+    const auto around = grid.tree.find({brick.level - 1, at});
+    LW_ASSERT(around);
+    points_ = &grid.bricks[*around];
+    first_ = brick.at * 2 - at * Brick::cells;
+  }
+
+  /// At a point of the brick that is one of their corners.
+  BrickPoint at(const Vec3i& local) const {
+    const Vec3i corner = first_ + Vec3i{{local[0] / 2, local[1] / 2, local[2] / 2}};
+    if (points_ != nullptr) return (*points_)[static_cast<size_t>(Brick::point(corner))];
+    const size_t node = grid_.shape.index(corner);
+    return {grid_.moments[node], node_weight(grid_.valid[node])};
+  }
+
+ private:
+  const LightGrid& grid_;
+  const BrickPoints* points_ = nullptr;  // of the brick around; without one the grid's own nodes
+  Vec3i first_{};                        // the first corner among them
+};
+
+Vec3i lattice_point(const Brick& brick, int point) { return brick.at * Brick::cells + Brick::local(point); }
+
+}  // namespace
+
+std::vector<int> finer_points() {
+  std::vector<int> points;
+  for (int axes = 1; axes <= 3; axes++)
+    for (int point = 0; point < Brick::points; point++)
+      if (std::popcount(static_cast<unsigned>(axes_between(Brick::local(point)))) == axes) points.push_back(point);
+  return points;
+}
+
+void place_brick(LightGrid& grid, uint32_t brick, const BrickPoints& nodes) {
+  const Coarser coarser(grid, grid.tree.bricks()[brick]);
+  BrickPoints& points = grid.bricks[brick];
+  points = nodes;
+  for (int point = 0; point < Brick::points; point++) {
+    const Vec3i local = Brick::local(point);
+    if (axes_between(local) == 0) points[static_cast<size_t>(point)] = coarser.at(local);
+  }
+}
+
+namespace {
+
+/// The first brick of a tree that has a corner of a level's cells, and its point there.
+BrickNode first_at(const BrickTree& tree, int level, const Vec3i& corner) {
+  BrickNode first{~uint32_t(0), 0};
+  for (int side = 0; side < 8; side++) {
+    Brick brick{.level = level, .at = {}};
+    bool touches = true;
+    for (int a = 0; a < 3; a++) {
+      const bool before = (side >> a & 1) != 0;
+      touches = touches && (!before || corner[a] % Brick::cells == 0);
+      brick.at[a] = (corner[a] >> 2) - before;
+    }
+    const auto found = touches ? tree.find(brick) : std::nullopt;
+    if (found && *found < first.brick) first = {*found, Brick::point(corner - brick.at * Brick::cells)};
+  }
+  return first;
+}
+
+}  // namespace
+
+BrickNodes::BrickNodes(const BrickTree& tree) {
+  const std::vector<int> finer = finer_points();
+  numbers_.resize(tree.bricks().size());
+  for (uint32_t brick = 0; brick < tree.bricks().size(); brick++) {
+    const Brick& cube = tree.bricks()[brick];
+    first_.push_back(static_cast<uint32_t>(nodes_.size()));
+    for (const int point : finer) {
+      const BrickNode first = first_at(tree, cube.level, lattice_point(cube, point));
+      uint32_t& number = numbers_[brick][static_cast<size_t>(point)];
+      if (first.brick < brick) {
+        number = numbers_[first.brick][static_cast<size_t>(first.point)];
+      } else {
+        number = static_cast<uint32_t>(nodes_.size());
+        nodes_.push_back({brick, point});
+      }
+    }
+  }
+  first_.push_back(static_cast<uint32_t>(nodes_.size()));
+}
+
+}  // namespace lightwell
