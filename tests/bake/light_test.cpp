@@ -71,7 +71,8 @@ LightBakeOptions by(const EstimatorKind& method, int nodes, uint64_t photons) {
 
 const EstimatorKind& named(std::string_view name) {
   const auto found = std::ranges::find(estimators(), name, &EstimatorKind::name);
-  LW_ASSERT(found != estimators().end());
+  const bool exists = found != estimators().end();
+  LW_ASSERT(exists);
   return *found;
 }
 
