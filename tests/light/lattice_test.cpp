@@ -5,21 +5,10 @@
 
 #include "lightwell/light/lattice_stream.h"
 #include "tests/light/brick_fields.h"
+#include "tests/light/stream_parts.h"
 
 namespace lightwell {
 namespace {
-
-std::vector<uint8_t> parameters(const LatticeLayout& layout) {
-  ByteWriter writer;
-  layout.write(writer);
-  return writer.release();
-}
-
-uint64_t stream_bytes(const LatticeStream& stream) {
-  uint64_t bytes = 0;
-  for (const LightBundle& bundle : stream.bundles) bytes += bundle.payload.size();
-  return bytes;
-}
 
 LatticeDecoder opened(const LatticeStream& stream) {
   return std::move(LatticeDecoder::open(parameters(stream.layout), stream_bytes(stream)).value());

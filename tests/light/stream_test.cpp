@@ -6,21 +6,10 @@
 #include <set>
 
 #include "tests/light/light_fields.h"
+#include "tests/light/stream_parts.h"
 
 namespace lightwell {
 namespace {
-
-std::vector<uint8_t> parameters(const LightLayout& layout) {
-  ByteWriter writer;
-  layout.write(writer);
-  return writer.release();
-}
-
-uint64_t stream_bytes(const LightStream& stream) {
-  uint64_t bytes = 0;
-  for (const LightBundle& bundle : stream.bundles) bytes += bundle.payload.size();
-  return bytes;
-}
 
 LightDecoder opened(const LightStream& stream) {
   return std::move(LightDecoder::open(parameters(stream.layout), stream_bytes(stream)).value());
