@@ -2,15 +2,11 @@
 #include <cmath>
 
 #include "lightwell/base/model_coder.h"
+#include "lightwell/base/power_of_two.h"
 #include "lightwell/light/lattice_stream.h"
 
 namespace lightwell {
 namespace {
-
-bool is_power_of_two(float value) {
-  int power;
-  return value > 0 && std::isfinite(value) && std::frexp(value, &power) == 0.5f;
-}
 
 Result<void> check_shape(const LatticeLayout& layout) {
   const GridShape& shape = layout.shape;

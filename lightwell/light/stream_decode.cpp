@@ -2,18 +2,10 @@
 #include <cmath>
 
 #include "lightwell/base/model_coder.h"
+#include "lightwell/base/power_of_two.h"
 #include "lightwell/light/stream.h"
 
 namespace lightwell {
-namespace {
-
-bool is_power_of_two(float value) {
-  int power;
-  return value > 0 && std::isfinite(value) && std::frexp(value, &power) == 0.5f;
-}
-
-}  // namespace
-
 Result<LightLayout> LightLayout::read(Bytes parameters) {
   ByteReader reader(parameters);
   LightLayout layout;
