@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/gathered_light.h"
 
+#include "lightwell/bake/sheets.h"
+
 namespace lightwell {
 namespace {
 
@@ -59,6 +61,7 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random&
 GatheredLight::Surroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, Random& random) const {
   const Vec3f position = viewpoint(world_, node, cell);
   Surroundings found = around(position, random);
+  if (is_on_sheet(world_.surfaces(), space_, node, cell, random)) found.insides = 1;
   for (int d = 0; d < 6; d++) {
     Vec3f direction{};
     direction[d / 2] = d % 2 == 0 ? 1.0f : -1.0f;

@@ -25,7 +25,8 @@ class GatheredLight {
     uint64_t rays = 0;
   };
   /// The light of a node: what is around its viewpoint(). But where it lies close behind a surface that has one side, E
-  /// of the direction in which that faces is what arrives there: lookups in front of it reach back to the node.
+  /// of the direction in which that faces is what arrives there: lookups in front of it reach back to the node. One
+  /// that lies on a sheet is all insides.
   Surroundings at_node(const Vec3f& node, const Vec3f& cell, Random& random) const;
 
   /// Rays from a node: in a room they leave 1.4 % of noise (docs/light.md section 3: evenly spread, 64 leave 4 %).

@@ -33,8 +33,8 @@ void make_divisible(GridShape& shape) {
 }
 
 /// `longest` as LightBakeOptions::nodes.
-Result<std::vector<GridShape>> place_nodes(const World& world, int longest) {
-  std::vector<GridShape> shapes = possible_grids(world, longest == 0 ? coarse_nodes : longest);
+Result<std::vector<GridShape>> place_nodes(const World& world, const FreeSpace& space, int longest) {
+  std::vector<GridShape> shapes = possible_grids(world, space, longest == 0 ? coarse_nodes : longest);
   if (longest == 0) std::for_each(shapes.begin(), shapes.end(), make_divisible);
   size_t most = 0;
   for (const GridShape& shape : shapes) most = std::max(most, shape.count());
@@ -135,10 +135,10 @@ Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options
     return fail(ErrorKind::unsupported, "grid",
                 "--method " + std::string(options.method->name) + " fills regular grids only: give --grid N");
   progress.stage("free space", 0, "photons");
-  LW_TRY(shapes, place_nodes(world, options.nodes));
   SurveyOptions survey{.seed = estimator.seed, .threads = estimator.threads};
   survey.most_photons = std::min(survey.most_photons, estimator.photons);
   LW_TRY(space, FreeSpace::survey(world, survey, progress));
+  LW_TRY(shapes, place_nodes(world, space, options.nodes));
   const float cell = max_component(shapes.front().cell) / static_cast<float>(adaptive ? 6 : 3);
   LW_TRY(cache, light_surfaces(world, shapes.front(), cell, estimator, progress));
   const GatheredLight light(world, space, cache, estimator.contained);
