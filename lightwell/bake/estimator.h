@@ -16,6 +16,7 @@ struct BakeScene {
   const World& world;
   const FreeSpace& space;
   const SurfaceCache& cache;
+  Box3f box;  ///< of the part that is baked
 };
 
 /// An estimator's sum over some of its samples. Sums of disjoint samples add up to the same bits in any order,

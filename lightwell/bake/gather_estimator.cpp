@@ -27,7 +27,7 @@ struct FinishedNodes : public PartialLight {
 class GatherEstimator : public Estimator {
  public:
   GatherEstimator(const BakeScene& scene, const GridShape& shape, const EstimatorOptions& options)
-      : shape_(shape), options_(options), light_(scene.world, scene.space, scene.cache, options.contained) {}
+      : shape_(shape), options_(options), light_(scene.world, scene.space, scene.cache, options.contained, scene.box) {}
 
   uint64_t samples() const override { return shape_.count(); }
   std::string_view unit() const override { return "nodes"; }

@@ -24,9 +24,8 @@ void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
 
 }  // namespace
 
-Vec3f viewpoint(const World& world, const Vec3f& node, const Vec3f& cell) {
+Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell) {
   constexpr float inset = 0.1f;
-  const Box3f& box = world.surfaces().bounds();
   Vec3f position = node;
   for (int a = 0; a < 3; a++) {
     const float margin = inset * cell[a];
@@ -59,9 +58,13 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random&
 }
 
 GatheredLight::Surroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, Random& random) const {
-  const Vec3f position = viewpoint(world_, node, cell);
+  const Vec3f position = viewpoint(box_, node, cell);
   Surroundings found = around(position, random);
-  if (is_on_sheet(world_.surfaces(), space_, node, cell, random)) found.insides = 1;
+  for (int axis = 0; axis < 3; axis++) {
+    // What lies behind the outermost surfaces is seen by none unless a sky lights it.
+    if (position[axis] != node[axis] && world_.lights().environment().black()) continue;
+    if (is_on_sheet(world_.surfaces(), space_, node, cell, axis, random)) found.insides = 1;
+  }
   for (int d = 0; d < 6; d++) {
     Vec3f direction{};
     direction[d / 2] = d % 2 == 0 ? 1.0f : -1.0f;
@@ -128,10 +131,11 @@ uint64_t GatheredLight::sample_luminaires(const Vec3f& position, const Vec3f& no
   if (contained_ == LuminaireSet()) return 0;
   uint64_t rays = 0;
   for (int i = 0; i < luminaire_samples; i++) {
-    const Arrival arrival = world_.lights().sample(position, random);
+    Arrival arrival = world_.lights().sample(position, random);
     if (!contained_.contains(arrival.luminaire) || max_component(arrival.radiance) <= 0) continue;
     rays++;
-    if (!hidden(world_.surfaces(), position, normal, arrival, random)) add(arrival);
+    arrival.radiance *= visibility(world_.surfaces(), position, normal, arrival, random);
+    add(arrival);
   }
   return rays;
 }

@@ -14,9 +14,13 @@ namespace lightwell {
 /// light of the luminaires that a grid contains. Threads may share it.
 class GatheredLight {
  public:
-  /// All arguments must outlive this.
-  GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache, const LuminaireSet& contained)
-      : world_(world), space_(space), cache_(cache), contained_(contained) {}
+  /// `box`: of the part of the scene that is baked. All other arguments must outlive this.
+  GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache, const LuminaireSet& contained,
+                const Box3f& box)
+      : world_(world), space_(space), cache_(cache), contained_(contained), box_(box) {}
+
+  const World& world() const { return world_; }
+  const Box3f& box() const { return box_; }
 
   /// What rays in all directions find.
   struct Surroundings {
@@ -50,10 +54,11 @@ class GatheredLight {
   const FreeSpace& space_;
   const SurfaceCache& cache_;
   const LuminaireSet& contained_;
+  const Box3f box_;
 };
 
-/// Where the light of a node is looked for. A node on a face of the scene's box, where walls stand, is moved inwards by
-/// a tenth of a cell: closer to a wall it would see little else.
-Vec3f viewpoint(const World& world, const Vec3f& node, const Vec3f& cell);
+/// Where the light of a node is looked for. A node on a face of the box of what is baked, where walls stand, is moved
+/// inwards by a tenth of a cell: closer to a wall it would see little else.
+Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell);
 
 }  // namespace lightwell

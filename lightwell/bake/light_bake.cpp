@@ -33,8 +33,8 @@ void make_divisible(GridShape& shape) {
 }
 
 /// `longest` as LightBakeOptions::nodes.
-Result<std::vector<GridShape>> place_nodes(const World& world, const FreeSpace& space, int longest) {
-  std::vector<GridShape> shapes = possible_grids(world, space, longest == 0 ? coarse_nodes : longest);
+Result<std::vector<GridShape>> place_nodes(const World& world, const FreeSpace& space, const Box3f& box, int longest) {
+  std::vector<GridShape> shapes = possible_grids(world, space, box, longest == 0 ? coarse_nodes : longest);
   if (longest == 0) std::for_each(shapes.begin(), shapes.end(), make_divisible);
   size_t most = 0;
   for (const GridShape& shape : shapes) most = std::max(most, shape.count());
@@ -64,15 +64,14 @@ Result<std::unique_ptr<PartialLight>> sum_up(const Estimator& estimator, int thr
 }
 
 /// The light of the surfaces that the nodes see, in cells finer than what is looked up: as large as `cell`, metres.
-Result<SurfaceCache> light_surfaces(const World& world, const GridShape& shape, float cell,
+Result<SurfaceCache> light_surfaces(const World& world, const Box3f& box, const GridShape& shape, float cell,
                                     const EstimatorOptions& options, Progress& progress) {
   std::vector<Vec3f> viewpoints(shape.count());
   for (size_t i = 0; i < viewpoints.size(); i++)
-    viewpoints[i] = viewpoint(world, shape.position(shape.node(i)), shape.cell);
+    viewpoints[i] = viewpoint(box, shape.position(shape.node(i)), shape.cell);
   progress.stage("surfaces", 0, "cells");
-  return SurfaceCache::build(
-      world, viewpoints,
-      {.region = world.surfaces().bounds(), .cell = cell, .seed = options.seed, .threads = options.threads}, progress);
+  return SurfaceCache::build(world, viewpoints,
+                             {.region = box, .cell = cell, .seed = options.seed, .threads = options.threads}, progress);
 }
 
 Result<NodeLight> light_nodes(const BakeScene& scene, const GridShape& shape, const LightBakeOptions& options,
@@ -118,38 +117,23 @@ class BestGrid {
   size_t nodes_ = 0;
 };
 
-}  // namespace
-
-Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
-                             LightBakeStatistics& statistics) {
-  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= 2);
-  if (world.lights().dark()) {
-    return fail("",
-                "nothing shines: the scene has no emissive material, no lamp and no environment; "
-                "--environment 1,1,1 lights it from all around");
-  }
-  const auto start = std::chrono::steady_clock::now();
+/// Bakes one grid over a box; adds to the statistics.
+Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box3f& box,
+                           const LightBakeOptions& options, Progress& progress, LightBakeStatistics& statistics) {
   const EstimatorOptions& estimator = options.estimator;
   const bool adaptive = options.nodes == 0;
-  if (adaptive && !options.method->node_by_node)
-    return fail(ErrorKind::unsupported, "grid",
-                "--method " + std::string(options.method->name) + " fills regular grids only: give --grid N");
-  progress.stage("free space", 0, "photons");
-  SurveyOptions survey{.seed = estimator.seed, .threads = estimator.threads};
-  survey.most_photons = std::min(survey.most_photons, estimator.photons);
-  LW_TRY(space, FreeSpace::survey(world, survey, progress));
-  LW_TRY(shapes, place_nodes(world, space, options.nodes));
+  LW_TRY(shapes, place_nodes(world, space, box, options.nodes));
   const float cell = max_component(shapes.front().cell) / static_cast<float>(adaptive ? 6 : 3);
-  LW_TRY(cache, light_surfaces(world, shapes.front(), cell, estimator, progress));
-  const GatheredLight light(world, space, cache, estimator.contained);
-  const TestPointOptions testing{.seed = ~estimator.seed, .threads = estimator.threads};
-  LW_TRY(test, TestPoints::gather(world, light, testing, progress));
+  LW_TRY(cache, light_surfaces(world, box, shapes.front(), cell, estimator, progress));
+  const GatheredLight light(world, space, cache, estimator.contained, box);
+  const TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
+  LW_TRY(test, TestPoints::gather(light, testing, progress));
 
-  statistics.rays = cache.rays();
+  statistics.rays += cache.rays();
   BestGrid best(test);
   std::optional<AdaptiveLight> chosen;
   for (const GridShape& shape : shapes) {
-    LW_TRY(nodes, light_nodes({world, space, cache}, shape, options, progress));
+    LW_TRY(nodes, light_nodes({world, space, cache, box}, shape, options, progress));
     statistics.rays += nodes.rays;
     AdaptiveLight candidate(light, shape, std::move(nodes), estimator);
     if (best.consider(candidate)) chosen.emplace(std::move(candidate));
@@ -161,19 +145,57 @@ Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options
                                    .rays = 256,
                                    .seed = testing.seed ^ 0xb71c,
                                    .threads = estimator.threads};
-    LW_TRY(fit, TestPoints::gather(world, light, fitting, progress));
+    LW_TRY(fit, TestPoints::gather(light, fitting, progress));
     const uint64_t before = chosen->rays();
     LW_CHECK(chosen->refine(fit, {options.target_error, options.most_nodes, best.most_insides(), best.normal_offset()},
                             progress));
     statistics.rays += chosen->rays() - before;
     best.consider(*chosen);
   }
-  statistics.nodes = best.nodes();
-  LightGrid grid = best.take();
-  statistics.estimated_error = test.error(grid);
-  statistics.invalid_nodes = static_cast<size_t>(std::count(grid.valid.begin(), grid.valid.end(), 0));
+  statistics.nodes += best.nodes();
+  BakedGrid baked{.grid = best.take()};
+  baked.estimated_error = test.error(baked.grid);
+  const std::vector<uint8_t>& valid = baked.grid.valid;
+  statistics.invalid_nodes += static_cast<size_t>(std::count(valid.begin(), valid.end(), 0));
+  return baked;
+}
+
+}  // namespace
+
+LightField field_of(std::vector<BakedGrid> grids, const GridContents& contents) {
+  std::vector<LightField::Layer> layers;
+  for (BakedGrid& baked : grids) layers.push_back({std::move(baked.grid), contents, baked.priority});
+  return LightField(std::move(layers));
+}
+
+Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
+                                          LightBakeStatistics& statistics) {
+  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= 2);
+  if (world.lights().dark()) {
+    return fail("",
+                "nothing shines: the scene has no emissive material, no lamp and no environment; "
+                "--environment 1,1,1 lights it from all around");
+  }
+  const auto start = std::chrono::steady_clock::now();
+  if (options.nodes == 0 && !options.method->node_by_node)
+    return fail(ErrorKind::unsupported, "grid",
+                "--method " + std::string(options.method->name) + " fills regular grids only: give --grid N");
+  progress.stage("free space", 0, "photons");
+  SurveyOptions survey{.seed = options.estimator.seed, .threads = options.estimator.threads};
+  survey.most_photons = std::min(survey.most_photons, options.estimator.photons);
+  LW_TRY(space, FreeSpace::survey(world, survey, progress));
+
+  std::vector<Box3f> boxes{world.surfaces().focus()};
+  if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
+  std::vector<BakedGrid> grids;
+  for (const Box3f& box : boxes) {
+    LW_TRY(baked, bake_box(world, space, box, options, progress, statistics));
+    baked.priority = static_cast<int>(boxes.size() - 1 - grids.size());
+    grids.push_back(std::move(baked));
+  }
+  statistics.estimated_error = grids.front().estimated_error;
   statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return grid;
+  return grids;
 }
 
 }  // namespace lightwell

@@ -3,7 +3,7 @@
 
 #include "lightwell/bake/estimator.h"
 #include "lightwell/base/progress.h"
-#include "lightwell/light/grid.h"
+#include "lightwell/light/light_field.h"
 
 namespace lightwell {
 
@@ -19,20 +19,32 @@ struct LightBakeOptions {
   EstimatorOptions estimator;
 };
 
+/// A grid over a part of a scene.
+struct BakedGrid {
+  LightGrid grid;
+  /// Where grids overlap, that of the highest priority is looked up.
+  int priority = 0;
+  /// Root mean square at test points of surfaces, as a share of the mean irradiance (docs/light.md section 4).
+  float estimated_error = 0;
+};
+
+/// Grids of the same contents as a field.
+LightField field_of(std::vector<BakedGrid> grids, const GridContents& contents);
+
 struct LightBakeStatistics {
   uint64_t rays = 0;
   double seconds = 0;
   size_t nodes = 0;
   size_t invalid_nodes = 0;
-  /// Root mean square at test points of surfaces, as a share of the mean irradiance (docs/light.md section 4).
-  float estimated_error = 0;
+  float estimated_error = 0;  ///< of the first grid
 };
 
-/// Bakes the light of a world into a grid: places the nodes, determines the free space, and lets an estimator fill in
-/// the light. The same world and options give the same grid for any number of threads. Fails when nothing shines, when
-/// the method cannot fill an adaptive grid, when the grid has more nodes than a pack can hold, or when `progress` is
+/// Bakes the light of a world: into a grid over its focus, and where that is not all of the world into another one over
+/// all of it, of lower priority. Each bake places the nodes, determines the free space, and lets an estimator fill in
+/// the light. The same world and options give the same grids for any number of threads. Fails when nothing shines, when
+/// the method cannot fill an adaptive grid, when a grid has more nodes than a pack can hold, or when `progress` is
 /// cancelled.
-Result<LightGrid> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
-                             LightBakeStatistics& statistics);
+Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
+                                          LightBakeStatistics& statistics);
 
 }  // namespace lightwell

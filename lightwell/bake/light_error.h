@@ -15,13 +15,12 @@ struct TestPointOptions {
   int threads = 0;  ///< 0: all processors
 };
 
-/// The light of random points of the fronts of surfaces, evenly spread over their area, and of free space, gathered
-/// apart from any grid: what a grid is measured by.
+/// The light of random points of the fronts of surfaces, evenly spread over their area, and of free space, in the box
+/// of what is baked, gathered apart from any grid: what a grid is measured by.
 class TestPoints {
  public:
   /// The same for any number of threads. Fails when `progress` asks to stop.
-  static Result<TestPoints> gather(const World& world, const GatheredLight& light, const TestPointOptions& options,
-                                   Progress& progress);
+  static Result<TestPoints> gather(const GatheredLight& light, const TestPointOptions& options, Progress& progress);
 
   /// How much the grid errs at a point, W/m2 summed over the colours, beyond what the noise of the gathered light may
   /// make of it; at least 0.
@@ -46,8 +45,7 @@ class TestPoints {
  private:
   struct Point {
     Vec3f position{};
-    Vec3f normal{};      // of the surface; 0 in free space
-    Vec3f facing{};      // whence the light comes
+    Vec3f normal{};      // of the surface; in free space that of one that might be there
     Vec3f irradiance{};  // W/m2
     Vec3f variance{};
 

@@ -29,24 +29,20 @@ bool is_sheet(const TraceScene& scene, const FreeSpace& space, const Hit& hit, c
          is_free(scene, space, {back.origin, direction}, random);
 }
 
-bool is_on_sheet(const TraceScene& scene, const FreeSpace& space, const Vec3f& node, const Vec3f& cell,
+bool is_on_sheet(const TraceScene& scene, const FreeSpace& space, const Vec3f& node, const Vec3f& cell, int axis,
                  Random& random) {
-  for (int axis = 0; axis < 3; axis++) {
-    const float reach = near_sheet * cell[axis];
-    const auto from = [&](float side) {
-      Ray ray{.far = 2 * reach};
-      ray.direction[axis] = -side;
-      ray.origin = node - ray.direction * reach;
-      return ray;
-    };
-    const auto both_sides = [&](const auto& test) { return test(from(-1)) && test(from(1)); };
-    if (both_sides([&](const Ray& ray) { return is_seen(scene, space, ray, random); }) &&
-        both_sides([&](const Ray& ray) {
-          return is_free(scene, space, {ray.origin, -ray.direction}, random);
-        }))
-      return true;
-  }
-  return false;
+  const float reach = near_sheet * cell[axis];
+  const auto from = [&](float side) {
+    Ray ray{.far = 2 * reach};
+    ray.direction[axis] = -side;
+    ray.origin = node - ray.direction * reach;
+    return ray;
+  };
+  const auto both_sides = [&](const auto& test) { return test(from(-1)) && test(from(1)); };
+  return both_sides([&](const Ray& ray) { return is_seen(scene, space, ray, random); }) &&
+         both_sides([&](const Ray& ray) {
+           return is_free(scene, space, {ray.origin, -ray.direction}, random);
+         });
 }
 
 }  // namespace lightwell

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
-#include "lightwell/trace/trace_scene.h"
+#include "lightwell/bake/surface_pieces.h"
 
 namespace lightwell {
 
@@ -34,13 +33,8 @@ class Solids {
   bool from_inside(const Hit& hit) const;
 
  private:
-  void add_pieces(const Mesh& mesh, const std::vector<uint32_t>& of_faces);
-  std::optional<size_t> piece(const Hit& hit) const;
-
-  const TraceScene& scene_;
-  std::vector<std::vector<uint32_t>> pieces_of_faces_;  // of each primitive; empty unless double-sided
-  std::vector<size_t> first_piece_;                     // of each primitive
-  std::vector<uint8_t> encloses_;                       // of each piece: whether it has an inside
+  SurfacePieces pieces_;             // double-sided ones
+  std::vector<uint8_t> encloses_;    // of each piece: whether it has an inside
   std::vector<double> most_inside_;  // of each piece: light on the back of a solid, relative to the front
   std::vector<uint8_t> solid_;       // of each piece
 };

@@ -87,10 +87,11 @@ GridShape grid_of_walls(const World& world, const FreeSpace& space, const Box3f&
   return shape;
 }
 
-std::vector<GridShape> possible_grids(const World& world, const FreeSpace& space, int longest) {
-  std::vector<GridShape> grids{grid_of_walls(world, space, world.lights().region(), longest)};
-  if (world.lights().environment().black() || longest < least_with_layers) return grids;
-  GridShape& layered = grids.emplace_back(grid_of_walls(world, space, world.surfaces().bounds(), longest - 2));
+std::vector<GridShape> possible_grids(const World& world, const FreeSpace& space, const Box3f& box, int longest) {
+  const bool open = !world.lights().environment().black() || box != world.surfaces().bounds();
+  std::vector<GridShape> grids{grid_of_walls(world, space, LightRegion(box, open).box(), longest)};
+  if (!open || longest < least_with_layers) return grids;
+  GridShape& layered = grids.emplace_back(grid_of_walls(world, space, box, longest - 2));
   layered.lo -= layered.cell;
   layered.nodes += Vec3i::filled(2);
   return grids;

@@ -13,10 +13,11 @@ namespace lightwell {
 /// (docs/decisions/010-thin-walls.md).
 GridShape grid_of_walls(const World& world, const FreeSpace& space, const Box3f& box, int longest);
 
-/// The grids that may suit a scene, to be chosen from by how much each errs: over the region of its light, and under a
-/// sky also one with nodes on the faces of the scene's own box and a layer of them outside: then no cell holds both
-/// sides of a sheet that stands on a face, as the walls of rooms without thickness do.
-std::vector<GridShape> possible_grids(const World& world, const FreeSpace& space, int longest);
+/// The grids that may suit a part of a scene, to be chosen from by how much each errs: over its box, and where there is
+/// light outside of it, of a sky or of the rest of the scene, over the box with a margin, or with nodes on its faces
+/// and a layer of them outside: then no cell holds both sides of a sheet that stands on a face, as the walls of rooms
+/// without thickness do.
+std::vector<GridShape> possible_grids(const World& world, const FreeSpace& space, const Box3f& box, int longest);
 
 /// True for a node inside a wall thinner than a cell: along some axis, rays both ways hit the back of a solid within
 /// half a cell. Its box would mix the light of both sides.

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "lightwell/bake/lamps.h"
+#include "lightwell/bake/turned.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/open_scene.h"
@@ -34,10 +35,10 @@ struct Bake {
   Report report;
 };
 
-Result<void> import_scene(const Options& options, Bake& bake) {
+Result<void> import_scene(const Options& options, Progress& progress, Bake& bake) {
   LW_TRY(opened, open_scene(options.scene, bake.report));
   bake.scene = std::move(opened.scene);
-  LW_TRY(world, World::build(bake.scene, options.scene.threads));
+  LW_TRY(world, world_facing_light(bake.scene, options.scene.threads, progress, bake.report));
   bake.world = std::move(world);
   return {};
 }
@@ -46,12 +47,11 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   const World& world = *bake.world;
   bake.plan = plan_lamps(world);
   const LuminaireSet& contained = bake.plan.contained;
-  LW_TRY(grid, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
+  LW_TRY(grids, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
   bake.light.lamps = bake.plan.client;
   PackGrid stated;
   stated.order = options.order;
   stated.seed = options.scene.import.seed;
-  stated.estimated_error = bake.light_statistics.estimated_error;
   const std::vector<Luminaire>& luminaires = world.lights().luminaires();
   for (size_t i = 0; i < luminaires.size(); i++) {
     if (!contained.contains(static_cast<int>(i))) continue;
@@ -59,9 +59,16 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   }
   LW_TRY(camera, choose_camera(world.surfaces(), ""));
   bake.camera = camera;
-  bake.field = LightField({{std::move(grid), stated.contains, stated.priority}});
-  stated.grid = &bake.field.layers().front().grid;
-  bake.light.grids = {stated};
+  std::vector<float> errors;
+  for (const BakedGrid& grid : grids) errors.push_back(grid.estimated_error);
+  bake.field = field_of(std::move(grids), stated.contains);
+  for (size_t i = 0; i < errors.size(); i++) {
+    const LightField::Layer& layer = bake.field.layers()[i];
+    stated.grid = &layer.grid;
+    stated.priority = layer.priority;
+    stated.estimated_error = errors[i];
+    bake.light.grids.push_back(stated);
+  }
   bake.light.exposure = choose_exposure(world, camera, bake.field, contained, options.scene.threads);
   return {};
 }
@@ -70,7 +77,7 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
   progress.stage("importing", 0, "");
-  LW_CHECK(import_scene(options, bake));
+  LW_CHECK(import_scene(options, progress, bake));
   bake.import_seconds = watch.lap();
   LW_CHECK(bake_grid(options, progress, bake));
   bake.light_seconds = watch.lap();

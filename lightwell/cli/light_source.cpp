@@ -36,8 +36,8 @@ Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& option
                             const LuminaireSet& contained, Progress& progress, const LightLevel& level) {
   if (scene.pack) return light_of_pack(*scene.pack, level);
   LightBakeStatistics statistics;
-  LW_TRY(grid, bake_light(world, options.light(contained), progress, statistics));
-  return LightField({{std::move(grid), {}, 0}});
+  LW_TRY(grids, bake_light(world, options.light(contained), progress, statistics));
+  return field_of(std::move(grids), {});
 }
 
 }  // namespace lightwell

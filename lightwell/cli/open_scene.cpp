@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "lightwell/bake/turned.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
@@ -61,6 +62,11 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
     opened->scene.environment = std::move(surroundings);
   }
   return opened;
+}
+
+Result<std::unique_ptr<const World>> ready(OpenedScene& opened, int threads, Progress& progress, Report& report) {
+  if (opened.pack) return World::build(opened.scene, threads);
+  return world_facing_light(opened.scene, threads, progress, report);
 }
 
 Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice) {

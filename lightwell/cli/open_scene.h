@@ -3,9 +3,10 @@
 
 #include <optional>
 
+#include "lightwell/base/progress.h"
 #include "lightwell/cli/arguments.h"
 #include "lightwell/packing/opened_pack.h"
-#include "lightwell/trace/trace_scene.h"
+#include "lightwell/trace/world.h"
 
 namespace lightwell {
 
@@ -17,6 +18,9 @@ struct OpenedScene {
 
 /// Opens the scene that the options name, a pack at a level; --environment replaces the scene's own.
 Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level = {});
+
+/// Makes the scene ready, if it is no pack as world_facing_light() does.
+Result<std::unique_ptr<const World>> ready(OpenedScene& opened, int threads, Progress& progress, Report& report);
 
 /// The camera with this name or number; an empty choice is the first one, or an overview where there is none.
 Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice);

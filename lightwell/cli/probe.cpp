@@ -16,8 +16,7 @@ struct Options {
 Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ProbePoint>& points, Progress& progress,
                                     Report& report) {
   LW_TRY(opened, open_scene(options.scene, report));
-  const Scene& scene = opened.scene;
-  LW_TRY(world, World::build(scene, options.scene.threads));
+  LW_TRY(world, ready(opened, options.scene.threads, progress, report));
   ProbeOptions probe_options = options.probe;
   probe_options.seed = options.scene.import.seed;
   probe_options.threads = options.scene.threads;

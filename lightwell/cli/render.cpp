@@ -49,8 +49,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   Stopwatch watch;
   Figures figures;
   LW_TRY(opened, open_scene(options.scene, report, options.mesh_level));
-  const Scene& scene = opened.scene;
-  LW_TRY(world, World::build(scene, options.scene.threads));
+  LW_TRY(world, ready(opened, options.scene.threads, progress, report));
   LW_TRY(camera, choose_camera(world->surfaces(), options.camera));
 
   RenderOptions render_options = options.render;

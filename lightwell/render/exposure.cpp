@@ -45,7 +45,8 @@ Readings read_meter(const World& world, const Camera& camera, const LightField& 
         const Vec3f normal = surfaces.shading_normal(hit);
         const Vec3f white = (light.direct + field.irradiance(hit.position, normal, normal)) / pi;
         const Bsdf bsdf = surfaces.surface(hit).bsdf;
-        pixels[pixel] += Vec2f{{luminance(white), luminance(white * (bsdf.diffuse + bsdf.metal))}} / float(samples);
+        pixels[pixel] +=
+            Vec2f{{luminance(white), luminance(hit.tint * white * (bsdf.diffuse + bsdf.metal))}} / float(samples);
       }
     }
   });

@@ -70,7 +70,7 @@ float depth_of_view(const TraceScene& scene, const Camera& camera, float nothing
 }
 
 Camera view_from_within(const TraceScene& scene, const std::vector<Vec3f>& eyes) {
-  const float nothing = 1e-3f * length(scene.bounds().size());
+  const float nothing = 1e-3f * length(scene.focus().size());
   Camera best;
   float farthest = -std::numeric_limits<float>::infinity();
   for (const Vec3f& eye : eyes)
@@ -110,7 +110,7 @@ Camera view_from_outside(const Box3f& box) {
 
 Camera overview_camera(const TraceScene& scene) {
   std::vector<Vec3f> enclosed;
-  const std::vector<Vec3f> points = lattice_points(scene.bounds());
+  const std::vector<Vec3f> points = lattice_points(scene.focus());
   float within = 0;
   for (const Vec3f& point : points) {
     const float fronts = share_of_fronts(scene, point);
@@ -119,7 +119,7 @@ Camera overview_camera(const TraceScene& scene) {
   }
   const float least = std::max(least_enclosed * within, least_enclosed_of_all * static_cast<float>(points.size()));
   const bool inside = static_cast<float>(enclosed.size()) >= least;
-  return inside ? view_from_within(scene, enclosed) : view_from_outside(scene.bounds());
+  return inside ? view_from_within(scene, enclosed) : view_from_outside(scene.focus());
 }
 
 }  // namespace lightwell

@@ -40,7 +40,7 @@ class Renderer {
     Hit hit;
     rays++;
     if (!surfaces.intersect(ray, random, hit))
-      return total ? world_.lights().environment().radiance(ray.direction) : Vec3f{};
+      return total ? hit.tint * world_.lights().environment().radiance(ray.direction) : Vec3f{};
     const Surface surface = surfaces.surface(hit);
     const Receiver receiver{.position = hit.position,
                             .normal = hit.facing_normal(),
@@ -53,7 +53,7 @@ class Renderer {
       rays += static_cast<uint64_t>(light.rays);
       sum += light.radiance;
     }
-    return sum + integrator_->known(receiver);
+    return hit.tint * (sum + integrator_->known(receiver));
   }
 
   const World& world_;

@@ -18,6 +18,7 @@ class Gatherer {
       Hit hit;
       gathering_.rays++;
       const bool meets = surfaces_.intersect(ray, random_, hit);
+      throughput_ *= hit.tint;
       if (gathering_.rays == 1) {
         gathering_.meets_surface = meets;
         gathering_.first = hit;
@@ -48,7 +49,7 @@ class Gatherer {
   void see(int luminaire, const Vec3f& radiance, const Density& density) {
     if (luminaire < 0 || max_component(radiance) <= 0) return;
     if (reflections_ == 0) {
-      gathering_.emitted = radiance;
+      gathering_.emitted = throughput_ * radiance;
       gathering_.luminaire = luminaire;
     } else {
       gathering_.mirrored += throughput_ * radiance * power_heuristic(lobe_density_, density());
@@ -75,10 +76,11 @@ class Gatherer {
     if (cosine <= 0 || max_component(arrival.radiance) <= 0) return;
     const Vec3f value = bsdf.value(normal, out, arrival.direction);
     gathering_.rays++;
-    if (max_component(value) <= 0 || hidden(surfaces_, position, normal, arrival, random_)) return;
+    if (max_component(value) <= 0) return;
+    const Vec3f seen = visibility(surfaces_, position, normal, arrival, random_);
     const float weight =
         arrival.extended ? power_heuristic(arrival.density, bsdf.density(normal, out, arrival.direction)) : 1.0f;
-    gathering_.mirrored += throughput_ * value * arrival.radiance * (cosine * weight / arrival.density);
+    gathering_.mirrored += throughput_ * value * seen * arrival.radiance * (cosine * weight / arrival.density);
   }
 
   const TraceScene& surfaces_;

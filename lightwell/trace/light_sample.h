@@ -23,8 +23,9 @@ struct Arrival {
   int luminaire = 0;
 };
 
-/// True when a surface stands between a point of a surface, of unit normal `normal`, and the source.
-bool hidden(const TraceScene& surfaces, const Vec3f& position, const Vec3f& normal, const Arrival& arrival,
-            Random& random);
+/// The share of each colour of the source's light that reaches a point of a surface, of unit normal `normal`: 0 when
+/// another one stands between.
+Vec3f visibility(const TraceScene& surfaces, const Vec3f& position, const Vec3f& normal, const Arrival& arrival,
+                 Random& random);
 
 }  // namespace lightwell

@@ -106,24 +106,33 @@ Surface surface_of(const Material& material, const std::vector<Image>& images, c
   if (material.alpha == Material::Alpha::blend) surface.coverage = std::clamp(base[3], 0.0f, 1.0f);
   // Transmission replaces only the diffuse part of the dielectric (KHR_materials_transmission): of all light, color *
   // (1 - metallic) * transmission passes, color * (1 - metallic) * (1 - transmission) is reflected diffusely and color
-  // * metallic by the metal. `passing` is one number, the mean over the channels; the BSDF's parts are shares of the
-  // light that does not pass.
+  // * metallic by the metal. Chance lets all colours pass together, in their mean; the tint has the rest of what they
+  // differ in. The BSDF's parts are shares of the light that does not pass.
   const float dielectric = 1 - metallic;
-  const float passing = dielectric * material.transmission * mean_of_channels(color);
-  const float stopped = 1 - passing;
+  const Vec3f passing = color * (dielectric * material.transmission);
+  const float stopped = 1 - mean_of_channels(passing);
+  const Vec3f past = Vec3f::filled(1 - surface.coverage) + passing * surface.coverage;
   surface.coverage *= stopped;
+  if (surface.coverage < 1) surface.tint = past / mean_of_channels(past);
   if (stopped > 0) {
     surface.bsdf.diffuse = color * (dielectric * ((1 - material.transmission) / stopped));
     surface.bsdf.metal = color * (metallic / stopped);
     surface.bsdf.metallic = metallic / stopped;
   }
-  surface.bsdf.roughness = std::clamp(material.roughness * metal_rough[1], 0.0f, 1.0f);
   surface.emission = material.emission * rgb(look_up(material.emission_texture, images, texcoords, true));
+  if (surface.coverage < 1 && max_component(surface.bsdf.diffuse + surface.bsdf.metal + surface.emission) <= 0) {
+    // Where nothing comes back, chance would only add noise.
+    surface.coverage = 0;
+    surface.tint = past;
+  }
+  surface.bsdf.roughness = std::clamp(material.roughness * metal_rough[1], 0.0f, 1.0f);
   return surface;
 }
 
 bool lets_light_pass(const Material& material) {
   return material.alpha != Material::Alpha::opaque || material.transmission > 0;
 }
+
+bool tints_light(const Material& material) { return material.transmission > 0; }
 
 }  // namespace lightwell

@@ -37,9 +37,13 @@ struct Bsdf {
 
 /// The material at a point of a surface.
 struct Surface {
-  Bsdf bsdf;           ///< of the light that does not pass straight through
-  Vec3f emission{};    ///< radiance of the front, W/m2/sr
-  float coverage = 1;  ///< the share of light that does not pass straight through (alpha, transmission)
+  Bsdf bsdf;         ///< of the light that does not pass straight through
+  Vec3f emission{};  ///< radiance of the front, W/m2/sr
+  /// The share of light that does not pass straight through (alpha, transmission), all colours; 0 where nothing of it
+  /// would be reflected.
+  float coverage = 1;
+  /// What passes of each colour, for one that passes on the average of them: a green pane has more than 1 of green.
+  Vec3f tint = Vec3f::filled(1);
 };
 
 /// Evaluates a material at texture coordinates (the mesh's two sets) and a vertex colour. Light that
@@ -50,5 +54,7 @@ Surface surface_of(const Material& material, const std::vector<Image>& images, c
 
 /// True when some point of the material may have a coverage below 1.
 bool lets_light_pass(const Material& material);
+/// True when what passes may have another colour than what arrives.
+bool tints_light(const Material& material);
 
 }  // namespace lightwell

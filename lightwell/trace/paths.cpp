@@ -37,15 +37,12 @@ class Path {
     if (cosine <= 0 || dot(vertex_.normal, arrival.direction) <= 0 || max_component(arrival.radiance) <= 0) return;
     const Bsdf& bsdf = vertex_.bsdf;
     const Vec3f value = bsdf.value(vertex_.shading_normal, vertex_.out, arrival.direction);
-    if (max_component(value) <= 0 || hidden(arrival)) return;
+    if (max_component(value) <= 0) return;
+    rays_++;
+    const Vec3f seen = visibility(surfaces_, vertex_.position, vertex_.normal, arrival, random_);
     const float other = bsdf.density(vertex_.shading_normal, vertex_.out, arrival.direction);
     const float weight = arrival.extended ? power_heuristic(arrival.density, other) : 1.0f;
-    add(arrival.luminaire, value * arrival.radiance * (cosine * weight / arrival.density));
-  }
-
-  bool hidden(const Arrival& arrival) {
-    rays_++;
-    return lightwell::hidden(surfaces_, vertex_.position, vertex_.normal, arrival, random_);
+    add(arrival.luminaire, value * seen * arrival.radiance * (cosine * weight / arrival.density));
   }
 
   /// Samples a direction of reflection and follows it to the next vertex; false where the path ends.
@@ -56,7 +53,10 @@ class Path {
     if (bounces_ == 0) receiver_throughput_ = max_component(throughput_);
     Hit hit;
     rays_++;
-    if (!surfaces_.intersect({surfaces_.leave(vertex_.position, vertex_.normal), sample.in}, random_, hit)) {
+    const bool meets =
+        surfaces_.intersect({surfaces_.leave(vertex_.position, vertex_.normal), sample.in}, random_, hit);
+    throughput_ *= hit.tint;
+    if (!meets) {
       meet_environment(sample);
       return false;
     }

@@ -166,10 +166,9 @@ class SurfaceCacheBuilder {
     const Arrival arrival = world_.lights().sample(place.position, random);
     const float cosine = dot(place.facing, arrival.direction);
     if (cosine <= 0 || max_component(arrival.radiance) <= 0) return 0;
-    if (!hidden(world_.surfaces(), place.position, place.facing, arrival, random)) {
-      const float weight = arrival.extended ? power_heuristic(arrival.density, cosine / pi) : 1.0f;
-      light.known += arrival.radiance * (cosine * weight * share / arrival.density);
-    }
+    const Vec3f seen = visibility(world_.surfaces(), place.position, place.facing, arrival, random);
+    const float weight = arrival.extended ? power_heuristic(arrival.density, cosine / pi) : 1.0f;
+    light.known += seen * arrival.radiance * (cosine * weight * share / arrival.density);
     return 1;
   }
 

@@ -5,6 +5,7 @@
 
 #include "lightwell/base/assert.h"
 #include "lightwell/scene/finish_mesh.h"
+#include "lightwell/trace/focus.h"
 
 namespace lightwell {
 namespace {
@@ -33,10 +34,28 @@ T interpolated(const std::vector<T>& values, const Face& face, float u, float v)
 
 }  // namespace
 
-/// A ray's context: the salt by which chance decides which partly transparent surfaces it passes.
+/// A ray's context: the salt by which chance decides which partly transparent surfaces it passes, and the tints of
+/// those that it passed. Embree finds them in any order, also behind the one that stops the ray.
 struct TraceScene::Context {
+  struct Pane {
+    float distance;
+    std::array<float, 3> tint;
+  };
+  /// Of which a ray knows the tints; what further ones pass keeps its colour.
+  static constexpr size_t most_panes = 16;
+
   RTCIntersectContext embree;  // first, so that Embree's pointer to it also points to this
   uint64_t salt = 0;
+  std::array<Pane, most_panes> panes;  // the first pane_count: clearing all would cost most rays more than the others
+  size_t pane_count = 0;
+
+  /// Of the panes nearer than a distance.
+  Vec3f tint(float distance) const {
+    Vec3f product = Vec3f::filled(1);
+    for (size_t i = 0; i < pane_count; i++)
+      if (panes[i].distance < distance) product *= Vec3f{panes[i].tint};
+    return product;
+  }
 
   explicit Context(uint64_t ray_salt) : salt(ray_salt) { rtcInitIntersectContext(&embree); }
 };
@@ -77,7 +96,8 @@ Result<void> TraceScene::commit(int threads) {
   rtcGetSceneBounds(embree_, &box);
   bounds_ = {{{box.lower_x, box.lower_y, box.lower_z}}, {{box.upper_x, box.upper_y, box.upper_z}}};
   if (bounds_.empty()) return fail("scene", "it has no triangles");
-  const float extent = max_component(bounds_.size());
+  focus_ = focus_of(*this);
+  const float extent = max_component(focus_.size());
   const float farthest = max_component(max(-bounds_.lo, bounds_.hi));
   offset_ = std::max(1e-5f * extent, 0x1p-21f * farthest);
   return {};
@@ -189,6 +209,7 @@ bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   Context context(salt(random));
   rtcIntersect1(embree_, &context.embree, &r);
+  hit.tint = context.tint(r.ray.tfar);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
   hit.instance = r.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? r.hit.geomID : r.hit.instID[0];
@@ -211,11 +232,11 @@ Vec3f TraceScene::front_normal(uint32_t instance, const Vec3f& by_winding) const
   return normalized(placed.mirrored ? -by_winding : by_winding);
 }
 
-bool TraceScene::occluded(const Ray& ray, Random& random) const {
+Vec3f TraceScene::transmittance(const Ray& ray, Random& random) const {
   RTCRay r = embree_ray(ray);
   Context context(salt(random));
   rtcOccluded1(embree_, &context.embree, &r);
-  return r.tfar < 0;
+  return r.tfar < 0 ? Vec3f{} : context.tint(ray.far);
 }
 
 /// Called by Embree for each hit of a partly transparent surface: rejects the hit by chance. The chance depends on ray
@@ -224,16 +245,17 @@ void TraceScene::filter(const RTCFilterFunctionNArguments* arguments) {
   LW_ASSERT(arguments->N == 1);
   if (arguments->valid[0] == 0) return;
   const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
-  const auto& context = *reinterpret_cast<const Context*>(arguments->context);
+  auto& context = *reinterpret_cast<Context*>(arguments->context);
   const auto& scene = *static_cast<const TraceScene*>(arguments->geometryUserPtr);
   const uint32_t instance = hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0];
   const uint64_t key = hash64(context.salt ^ hash64(uint64_t(instance) << 32 | hit.primID));
   const float chance = static_cast<float>(key >> 40) * 0x1p-24f;
-  if (chance >= scene.coverage(instance, hit.primID, hit.u, hit.v)) arguments->valid[0] = 0;
-}
-
-float TraceScene::coverage(uint32_t instance, uint32_t face, float u, float v) const {
-  return surface(instance, face, u, v).coverage;
+  const Surface surface = scene.surface(instance, hit.primID, hit.u, hit.v);
+  if (chance < surface.coverage) return;
+  arguments->valid[0] = 0;
+  if (!tints_light(scene.material(instance)) || context.pane_count == Context::most_panes) return;
+  const float distance = reinterpret_cast<const RTCRay*>(arguments->ray)->tfar;
+  context.panes[context.pane_count++] = {distance, surface.tint.e};
 }
 
 Surface TraceScene::surface(uint32_t instance, uint32_t face, float u, float v) const {

@@ -31,6 +31,8 @@ struct Hit {
   uint32_t face = 0;      ///< of the instance's mesh
   float u = 0, v = 0;     ///< weights of the face's second and third corner
   bool front = true;      ///< the ray came from the front
+  /// The tint of what the ray has passed on its way; also of a ray that meets nothing.
+  Vec3f tint = Vec3f::filled(1);
 
   /// The normal on the side that the ray came from.
   Vec3f facing_normal() const { return front ? normal : -normal; }
@@ -49,13 +51,15 @@ class TraceScene {
   const Scene& scene() const { return scene_; }
   /// The bounding box of everything that is traced, metres.
   const Box3f& bounds() const { return bounds_; }
+  /// The box of what the scene is about: see focus_of. Never empty, and within bounds() but for lamps.
+  const Box3f& focus() const { return focus_; }
 
-  /// Finds the nearest surface; false when there is none. Where a surface lets part of the light pass (alpha,
-  /// transmission), chance decides whether the ray hits it: in scenes with such surfaces two numbers are drawn from
-  /// `random`.
+  /// Finds the nearest surface; false when there is none, and then only the hit's tint is set. Where a surface lets
+  /// part of the light pass (alpha, transmission), chance decides whether the ray hits it: in scenes with such surfaces
+  /// two numbers are drawn from `random`.
   bool intersect(const Ray& ray, Random& random, Hit& hit) const;
-  /// True when something stops the ray before its end.
-  bool occluded(const Ray& ray, Random& random) const;
+  /// The share of each colour that reaches the ray's end: 0 when something stops it, else the tint of what it passes.
+  Vec3f transmittance(const Ray& ray, Random& random) const;
 
   /// The material at a hit.
   Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v); }
@@ -110,7 +114,6 @@ class TraceScene {
   void mark_uniform(Placed& placed) const;
   Vec3f front_normal(uint32_t instance, const Vec3f& by_winding) const;
   uint64_t salt(Random& random) const;
-  float coverage(uint32_t instance, uint32_t face, float u, float v) const;
   static void filter(const RTCFilterFunctionNArguments* arguments);
 
   const Scene& scene_;
@@ -119,7 +122,7 @@ class TraceScene {
   std::vector<RTCSceneTy*> shared_;  // of each primitive; null unless Embree places its instances
   std::vector<int> uses_;            // instances of each primitive
   std::vector<Placed> placed_;       // of each instance
-  Box3f bounds_;
+  Box3f bounds_, focus_;
   float offset_ = 0;
   bool lets_light_pass_ = false;
 };

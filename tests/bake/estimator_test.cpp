@@ -35,7 +35,7 @@ TEST(Estimators, SumsOfPartsAddUpToTheSameBits) {
   const std::vector<Vec3f> middle{{{1, 0.5f, 1.5f}}};
   const SurfaceCache cache =
       SurfaceCache::build(*world, middle, {.region = world->surfaces().bounds(), .cell = 0.2f}, silent).value();
-  const BakeScene known{*world, space, cache};
+  const BakeScene known{*world, space, cache, world->surfaces().bounds()};
   EstimatorOptions options;
   options.photons = 3001;
   for (const EstimatorKind& kind : estimators()) {

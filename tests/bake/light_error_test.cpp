@@ -19,7 +19,7 @@ struct Furnace {
       SurfaceCache::build(*world, middle, {.region = world->surfaces().bounds(), .cell = 0.2f, .samples = 256}, silent)
           .value();
   LuminaireSet none;
-  GatheredLight light{*world, space, cache, none};
+  GatheredLight light{*world, space, cache, none, world->surfaces().bounds()};
   float irradiance = 2 * pi;
 
   /// A grid of so many times the right light, on its half of x < 1 and on the other.
@@ -40,7 +40,7 @@ struct Furnace {
 // The cells' noise, some 1.5 %, is what is left of a grid that is right.
 TEST(TestPoints, TellTheErrorOfAGrid) {
   Furnace furnace;
-  const TestPoints test = TestPoints::gather(*furnace.world, furnace.light, {}, furnace.silent).value();
+  const TestPoints test = TestPoints::gather(furnace.light, {}, furnace.silent).value();
   EXPECT_LT(test.error(furnace.grid(1, 1)), 0.02f);
   EXPECT_NEAR(test.error(furnace.grid(1.3f, 1.3f)), 0.3f, 0.02f);
   // Half of the area errs by 40 %, the other half not at all.
@@ -51,7 +51,7 @@ TEST(TestPoints, AreTheSameForAnyNumberOfThreads) {
   Furnace furnace;
   const LightGrid grid = furnace.grid(1, 0.9f);
   const auto error = [&](int threads) {
-    return TestPoints::gather(*furnace.world, furnace.light, {.threads = threads}, furnace.silent).value().error(grid);
+    return TestPoints::gather(furnace.light, {.threads = threads}, furnace.silent).value().error(grid);
   };
   const float one = error(1);
   EXPECT_EQ(error(2), one);
@@ -63,7 +63,7 @@ TEST(TestPoints, StopWhenAsked) {
     bool cancelled() const override { return true; }
   } impatient;
   Furnace furnace;
-  const auto test = TestPoints::gather(*furnace.world, furnace.light, {}, impatient);
+  const auto test = TestPoints::gather(furnace.light, {}, impatient);
   ASSERT_FALSE(test);
   EXPECT_EQ(test.error().kind, ErrorKind::cancelled);
 }

@@ -44,7 +44,7 @@ LightGrid baked(const Scene& scene, int nodes) {
   LightBakeStatistics statistics;
   auto grid = bake_light(*world_of(scene), options, silent, statistics);
   LW_ASSERT(grid.has_value());
-  return std::move(*grid);
+  return std::move(grid->front().grid);
 }
 
 // 16 nodes would stand at 27 cm before the wall and at 8 cm behind it.
@@ -111,7 +111,7 @@ TEST(Sheets, AreKnownFromTheirOwnNodes) {
   const FreeSpace space = surveyed(*world);
   const Vec3f cell = Vec3f::filled(0.5f);
   Random random(1, 0);
-  const auto on_sheet = [&](const Vec3f& node) { return is_on_sheet(world->surfaces(), space, node, cell, random); };
+  const auto on_sheet = [&](const Vec3f& node) { return is_on_sheet(world->surfaces(), space, node, cell, 0, random); };
   for (const float off : {0.0f, -0.09f, 0.09f}) EXPECT_TRUE(on_sheet({{off, 1.3f, 0.7f}})) << off;
   EXPECT_FALSE(on_sheet({{0.11f, 1.3f, 0.7f}}));
   // The outer walls have nothing but the outside behind them, the lamp its inside.
@@ -125,8 +125,8 @@ TEST(Sheets, AreThinWallsToo) {
   const auto world = world_of(scene);
   const FreeSpace space = surveyed(*world);
   Random random(1, 0);
-  EXPECT_TRUE(is_on_sheet(world->surfaces(), space, {{0.1f, 1, 1}}, Vec3f::filled(0.6f), random));
-  EXPECT_FALSE(is_on_sheet(world->surfaces(), space, {{0.1f, 1, 1}}, Vec3f::filled(0.4f), random));
+  EXPECT_TRUE(is_on_sheet(world->surfaces(), space, {{0.1f, 1, 1}}, Vec3f::filled(0.6f), 0, random));
+  EXPECT_FALSE(is_on_sheet(world->surfaces(), space, {{0.1f, 1, 1}}, Vec3f::filled(0.4f), 0, random));
 }
 
 TEST(Sheets, GetNodesOfTheirOwn) {

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/turned.h"
+
+#include <algorithm>
+#include <set>
+
+#include "lightwell/bake/surface_pieces.h"
+#include "lightwell/base/parallel.h"
+#include "lightwell/trace/photons.h"
+
+namespace lightwell {
+namespace {
+
+constexpr uint64_t photons = 1 << 16;
+/// Fewer hits on the back do not tell enough.
+constexpr uint64_t least_hits = 100;
+/// Of the photons that a back reflects: how many stay, of those behind the walls of a room. A sheet under a sky sends
+/// most of them back to it.
+constexpr double least_enclosed = 0.75;
+/// Hits on the front for one on the back: of pieces that are turned, and of those that get two sides. A scan with holes
+/// has eight and more.
+constexpr double most_front = 0.02, most_front_of_both = 3;
+/// A piece in which there is nothing but a lamp is a bulb, unless it is at least this share of all surfaces.
+constexpr double least_area = 0.1;
+
+/// What the photons find out about a piece.
+struct Sides {
+  uint64_t front = 0, back = 0;
+  uint64_t stay = 0, escape = 0;  // photons that its back has reflected
+  uint64_t to_others = 0;         // of those that stay: to other pieces
+  bool is_large = false;
+
+  Sides& operator+=(const Sides& other) {
+    front += other.front;
+    back += other.back;
+    stay += other.stay;
+    escape += other.escape;
+    to_others += other.to_others;
+    return *this;
+  }
+
+  bool back_is_enclosed() const {
+    return back >= least_hits && (to_others > 0 || is_large) &&
+           static_cast<double>(stay) >= least_enclosed * static_cast<double>(stay + escape);
+  }
+  bool turned() const {
+    return back_is_enclosed() && static_cast<double>(front) <= most_front * static_cast<double>(back);
+  }
+  bool lit_within(const PieceExtent& extent) const {
+    return back_is_enclosed() && static_cast<double>(front) <= most_front_of_both * static_cast<double>(back) &&
+           extent.nearly_closed() && extent.volume() > 0;
+  }
+};
+
+bool has_one_side(const TraceScene& scene, uint32_t instance) {
+  const Material& material = scene.material(instance);
+  return !material.double_sided && max_component(material.emission) <= 0 && material.transmission <= 0;
+}
+
+std::vector<Sides> look_at_sides(const World& world, const SurfacePieces& pieces, int threads, Progress& progress) {
+  const size_t count = static_cast<size_t>(threads > 0 ? threads : default_threads());
+  std::vector<std::vector<Sides>> seen(count, std::vector<Sides>(pieces.count()));
+  parallel_for(
+      photons, 4096, static_cast<int>(count),
+      [&](size_t begin, size_t end, int thread) {
+        std::vector<Sides>& sides = seen[static_cast<size_t>(thread)];
+        for (size_t photon = begin; photon < end; photon++) {
+          std::optional<size_t> left;  // the piece whose back reflected the photon
+          Flight flight;
+          for (PhotonWalk walk(world, 0x51de5, photon); walk.next(flight);) {
+            const auto met = walk.end() ? pieces.piece(*walk.end()) : std::nullopt;
+            if (left && flight.from_back) {
+              (walk.end() ? sides[*left].stay : sides[*left].escape)++;
+              sides[*left].to_others += walk.end() && met != left;
+            }
+            left = met;
+            if (left) (walk.end()->front ? sides[*left].front : sides[*left].back)++;
+          }
+        }
+      },
+      [&] { return progress.cancelled(); });
+  double area = 0;
+  for (size_t piece = 0; piece < pieces.count(); piece++) area += pieces.extent(piece).area;
+  for (size_t piece = 0; piece < pieces.count(); piece++)
+    seen[0][piece].is_large = pieces.extent(piece).area >= least_area * area;
+  for (size_t thread = 1; thread < count; thread++)
+    for (size_t piece = 0; piece < pieces.count(); piece++) seen[0][piece] += seen[thread][piece];
+  return std::move(seen[0]);
+}
+
+/// Turns a scene's pieces to where the light is.
+class Turner {
+ public:
+  Turner(Scene& scene, const SurfacePieces& pieces, const std::vector<Sides>& sides)
+      : scene_(scene), pieces_(pieces), sides_(sides) {}
+
+  /// True when something was turned.
+  bool turn() {
+    for (size_t i = 0; i < scene_.primitives.size(); i++) {
+      Primitive& primitive = scene_.primitives[i];
+      if (turn_faces(i, primitive.mesh)) turned_.insert(name_of(primitive));
+      bool both = false;
+      pieces_.for_each_face(i, [&](size_t, size_t piece) { both = both || is_lit_within(piece); });
+      if (both) {
+        give_two_sides(primitive);
+        two_sided_.insert(name_of(primitive));
+      }
+    }
+    return !turned_.empty() || !two_sided_.empty();
+  }
+
+  void tell(Report& report) const {
+    if (!turned_.empty())
+      report.warn(names(turned_) + ": faces look away from the light on all sides; they are turned round");
+    if (!two_sided_.empty())
+      report.warn(names(two_sided_) + ": faces look outwards, but there is light inside; both sides are shown");
+  }
+
+ private:
+  bool is_lit_within(size_t piece) const {
+    return !sides_[piece].turned() && sides_[piece].lit_within(pieces_.extent(piece));
+  }
+
+  bool turn_faces(size_t primitive, Mesh& mesh) {
+    std::vector<uint8_t> turned(mesh.positions.size());
+    bool any = false;
+    pieces_.for_each_face(primitive, [&](size_t index, size_t piece) {
+      if (!sides_[piece].turned()) return;
+      Face& face = mesh.faces[index];
+      for (const uint32_t vertex : face) turned[vertex] = 1;
+      std::swap(face[1], face[2]);
+      any = true;
+    });
+    // No vertex is shared with a piece that is not turned.
+    for (size_t i = 0; i < mesh.normals.size(); i++)
+      if (turned[i]) mesh.normals[i] = -mesh.normals[i];
+    return any;
+  }
+
+  void give_two_sides(Primitive& primitive) {
+    scene_.materials.push_back(scene_.material_of(primitive));
+    scene_.materials.back().double_sided = true;
+    primitive.material = static_cast<int>(scene_.materials.size()) - 1;
+    Json& json = scene_.document.json;
+    if (primitive.source_mesh < 0) return;
+    Json& source = json["meshes"][static_cast<size_t>(primitive.source_mesh)]["primitives"]
+                       [static_cast<size_t>(primitive.source_primitive)];
+    Json material = source.contains("material") ? json["materials"][source["material"].get<size_t>()] : Json::object();
+    material["doubleSided"] = true;
+    source["material"] = DocumentBuilder(scene_.document).add("materials", std::move(material));
+  }
+
+  std::string name_of(const Primitive& primitive) const {
+    if (primitive.source_mesh < 0) return "a mesh";
+    const Json& mesh = scene_.document.json["meshes"][static_cast<size_t>(primitive.source_mesh)];
+    if (mesh.contains("name") && mesh["name"].is_string()) return '"' + mesh["name"].get<std::string>() + '"';
+    return "mesh " + std::to_string(primitive.source_mesh);
+  }
+
+  static std::string names(const std::set<std::string>& all) {
+    constexpr size_t most_named = 5;
+    std::string list;
+    size_t named = 0;
+    for (const std::string& name : all) {
+      if (named == most_named) return list + " and " + std::to_string(all.size() - named) + " more";
+      list += (named++ > 0 ? ", " : "") + name;
+    }
+    return list;
+  }
+
+  Scene& scene_;
+  const SurfacePieces& pieces_;
+  const std::vector<Sides>& sides_;
+  std::set<std::string> turned_, two_sided_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int threads, Progress& progress, Report& report) {
+  LW_TRY(world, World::build(scene, threads));
+  if (world->lights().dark()) return std::move(world);
+  const SurfacePieces pieces(world->surfaces(),
+                             [&](uint32_t instance) { return has_one_side(world->surfaces(), instance); });
+  const std::vector<Sides> sides = look_at_sides(*world, pieces, threads, progress);
+  if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
+  Turner turner(scene, pieces, sides);
+  // The world refers to the scene as it was: it must not be asked any more.
+  if (!turner.turn()) return std::move(world);
+  turner.tell(report);
+  return World::build(scene, threads);
+}
+
+}  // namespace lightwell

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/bake/turned.h"
+
+#include <gtest/gtest.h>
+
+#include "lightwell/bake/free_space.h"
+#include "tests/trace/scenes.h"
+
+namespace lightwell {
+namespace {
+
+struct Ready {
+  std::unique_ptr<const World> world;
+  std::vector<std::string> warnings;
+};
+
+Ready ready(Scene& scene) {
+  Progress silent;
+  Report report;
+  auto world = world_facing_light(scene, 2, silent, report);
+  LW_ASSERT(world.has_value());
+  return {std::move(*world), report.warnings};
+}
+
+const Vec3f lo{{-2, 0, -2}}, hi{{2, 3, 2}};
+
+Mesh lamp() { return quad({{-0.5f, 2.9f, -0.5f}}, {{1, 0, 0}}, {{0, 0, 1}}); }
+Mesh table() { return block({{0.3f, 0, 0.2f}}, {{1, 0.8f, 0.9f}}); }
+
+/// The faces of the first primitive, sorted corners first: the winding is what is compared.
+std::vector<Face> faces(const Scene& scene) { return scene.primitives[0].mesh.faces; }
+
+TEST(Turned, IsARoomWhoseFacesLookOutwards) {
+  Scene scene = scene_of(block(lo, hi), lambertian(0.7f));
+  scene.primitives[0].mesh.normals.assign(24, {{0, 1, 0}});
+  add(scene, table(), lambertian(0.5f));
+  add(scene, lamp(), lambertian(0, 10));
+  const std::vector<Face> table_faces = scene.primitives[1].mesh.faces;
+  const Ready turned = ready(scene);
+  EXPECT_EQ(faces(scene), faces(scene_of(room(lo, hi), {})));
+  EXPECT_EQ(scene.primitives[0].mesh.normals[0], (Vec3f{{0, -1, 0}}));
+  EXPECT_EQ(scene.primitives[1].mesh.faces, table_faces);
+  ASSERT_EQ(turned.warnings.size(), 1u);
+  EXPECT_NE(turned.warnings[0].find("look away from the light"), std::string::npos);
+  // Once is enough.
+  EXPECT_TRUE(ready(scene).warnings.empty());
+  Progress silent;
+  const FreeSpace space = FreeSpace::survey(*turned.world, {}, silent).value();
+  Hit hit;
+  Random random(1, 0);
+  ASSERT_TRUE(turned.world->surfaces().intersect({{{0, 1, 0}}, {{1, 0, 0}}}, random, hit));
+  EXPECT_FALSE(space.from_inside(hit));
+}
+
+// Walls of their own, each a sheet; with a punctual lamp and nothing else.
+TEST(Turned, AreSeparateWalls) {
+  Scene scene;
+  const Mesh all = block(lo, hi);
+  for (size_t side = 0; side < 6; side++) {
+    Mesh wall = all;
+    wall.faces = {all.faces[2 * side], all.faces[2 * side + 1]};
+    add(scene, wall, lambertian(0.7f));
+  }
+  scene.lamps = {point_lamp({{0, 2, 0}}, {{5, 5, 5}})};
+  EXPECT_EQ(ready(scene).warnings.size(), 1u);
+  for (size_t side = 0; side < 6; side++)
+    EXPECT_EQ(scene.primitives[side].mesh.faces[0][1], all.faces[2 * side][2]) << side;
+}
+
+TEST(Turned, IsNothingThatIsRight) {
+  Scene lit = scene_of(room(lo, hi), lambertian(0.7f));
+  add(lit, table(), lambertian(0.5f));
+  add(lit, lamp(), lambertian(0, 10));
+  // Dark inside, a sky outside; a sheet under a sky that faces the ground; a ball; a bulb around a lamp.
+  Scene dark = scene_of(room(lo, hi), lambertian(0.7f));
+  dark.environment.radiance = {{1, 1, 1}};
+  Scene sheet = scene_of(quad(lo, {{4, 0, 0}}, {{0, 0, 4}}), lambertian(0.7f));
+  add(sheet, quad({{-2, -2, -2}}, {{0, 0, 4}}, {{4, 0, 0}}), lambertian(0.7f));
+  sheet.environment.radiance = {{1, 1, 1}};
+  Scene ball = scene_of(turned(sphere(1, 3)), lambertian(0.7f));
+  ball.environment.radiance = {{1, 1, 1}};
+  Scene bulb = scene_of(room(lo, hi), lambertian(0.7f));
+  add(bulb, turned(sphere(0.1f, 3)), lambertian(0.9f), Transform::translation({{0, 2, 0}}));
+  bulb.lamps = {point_lamp({{0, 2, 0}}, {{5, 5, 5}})};
+  for (Scene* scene : {&lit, &dark, &sheet, &ball, &bulb}) {
+    const Scene before = *scene;
+    EXPECT_TRUE(ready(*scene).warnings.empty());
+    for (size_t i = 0; i < before.primitives.size(); i++)
+      EXPECT_EQ(scene->primitives[i].mesh.faces, before.primitives[i].mesh.faces);
+    EXPECT_EQ(scene->materials.size(), before.materials.size());
+  }
+}
+
+// A house of one outward shell: the sky lights its walls from outside, a lamp from inside.
+TEST(Turned, ShellLitFromBothSidesGetsTwo) {
+  Scene scene = scene_of(block(lo, hi), lambertian(0.7f));
+  add(scene, table(), lambertian(0.5f));
+  add(scene, lamp(), lambertian(0, 10));
+  scene.environment.radiance = {{1, 1, 1}};
+  EXPECT_EQ(ready(scene).warnings.size(), 1u);
+  EXPECT_EQ(faces(scene), faces(scene_of(block(lo, hi), {})));
+  EXPECT_TRUE(scene.material_of(scene.primitives[0]).double_sided);
+  EXPECT_FALSE(scene.material_of(scene.primitives[1]).double_sided);
+}
+
+}  // namespace
+}  // namespace lightwell
