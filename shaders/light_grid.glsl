@@ -56,9 +56,10 @@ bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, ve
 
 	if ( isLightwellGrid( probesResolution ) ) {
 
-		// A thousandth more than the box, since the scene's outermost surfaces lie on it.
+		// A hundredth more than the box, since the scene's outermost surfaces lie on it: at their edges a multisampled pixel's
+		// place may lie a little farther out.
 		vec3 fraction = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution );
-		return all( lessThanEqual( abs( fraction - 0.5 ), vec3( 0.501 ) ) );
+		return all( lessThanEqual( abs( fraction - 0.5 ), vec3( 0.51 ) ) );
 
 	}
 

@@ -9,6 +9,12 @@ namespace {
 /// Samples of the contained luminaires at a place; rays alone find only large ones.
 constexpr int luminaire_samples = 64;
 
+/// Sets of rays from a node at most, and the noise above which another one is taken.
+constexpr int most_sets = 4;
+constexpr float most_noise = 0.04f;
+/// Nodes that see more insides are hardly looked up: one set does.
+constexpr float seldom_insides = 0.5f;
+
 /// Of a cell: how far behind a surface a node answers for it.
 constexpr float close_by = 0.5f;
 
@@ -22,7 +28,25 @@ void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
   moments.m[8] += mixed(1, 2);
 }
 
+/// The sum of the sizes of E in all directions and colours.
+float size_of(const Moments& moments) {
+  float sum = 0;
+  for (size_t d = 0; d < 6; d++)
+    for (int c = 0; c < 3; c++) sum += std::abs(moments.m[d][c]);
+  return sum;
+}
+
 }  // namespace
+
+GatheredLight::GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache,
+                             const LuminaireSet& contained, const Box3f& box)
+    : world_(world), space_(space), cache_(cache), contained_(contained), box_(box) {
+  // A thousandth of what all light would be if the box's walls took it up, in the 18 numbers of size_of().
+  constexpr float negligible = 1e-3f;
+  const Vec3f s = box.size();
+  const float area = 2 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
+  dark_ = area > 0 ? 18 * negligible * mean_of_channels(world.lights().power()) / area : 0;
+}
 
 Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell) {
   constexpr float inset = 0.1f;
@@ -40,26 +64,52 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random&
   const float shift = random.uniform(), turn = random.uniform();
   const float solid_angle = 4 * pi / static_cast<float>(rays);
   int insides = 0;
+  Moments alternating;  // every other sample counts negative
+  float sign = 1;
+  const auto add = [&](const Vec3f& direction, const Vec3f& radiance) {
+    add_radiance(found.moments, direction, radiance);
+    add_radiance(alternating, direction, radiance * sign);
+    sign = -sign;
+  };
   for (int i = 0; i < rays; i++) {
     const Vec3f direction = sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
     const Gathering gathering = gather(world_, {position, direction}, cache_.near(), random);
     found.rays += static_cast<uint64_t>(gathering.rays);
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
     const Vec3f radiance = cache_.reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
-    add_radiance(found.moments, direction, radiance * solid_angle);
+    add(direction, radiance * solid_angle);
   }
   found.insides = static_cast<float>(insides) / static_cast<float>(rays);
   found.rays += sample_luminaires(position, {}, random, [&](const Arrival& arrival) {
     const float weight =
         arrival.extended ? power_heuristic(luminaire_samples * arrival.density, 1 / solid_angle) : 1.0f;
-    add_radiance(found.moments, arrival.direction, arrival.radiance * (weight / (luminaire_samples * arrival.density)));
+    add(arrival.direction, arrival.radiance * (weight / (luminaire_samples * arrival.density)));
   });
+  found.noise = size_of(alternating) / std::max(size_of(found.moments), std::numeric_limits<float>::min());
   return found;
+}
+
+GatheredLight::Surroundings GatheredLight::without_much_noise(const Vec3f& position, Random& random) const {
+  Surroundings sum = around(position, random);
+  int sets = 1;
+  const bool matters = sum.insides < seldom_insides && size_of(sum.moments) > dark_;
+  for (float noise = sum.noise; matters && sets < most_sets && noise > most_noise; sets++) {
+    const Surroundings more = around(position, random);
+    sum.moments += more.moments;
+    sum.insides += more.insides;
+    sum.noise += more.noise;
+    sum.rays += more.rays;
+    noise = sum.noise / std::pow(static_cast<float>(sets + 1), 1.5f);
+  }
+  const float share = 1 / static_cast<float>(sets);
+  sum.moments = sum.moments * share;
+  sum.insides *= share;
+  return sum;
 }
 
 GatheredLight::Surroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, Random& random) const {
   const Vec3f position = viewpoint(box_, node, cell);
-  Surroundings found = around(position, random);
+  Surroundings found = without_much_noise(position, random);
   for (int axis = 0; axis < 3; axis++) {
     // What lies behind the outermost surfaces is seen by none unless a sky lights it.
     if (position[axis] != node[axis] && world_.lights().environment().black()) continue;

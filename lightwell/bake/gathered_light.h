@@ -16,8 +16,7 @@ class GatheredLight {
  public:
   /// `box`: of the part of the scene that is baked. All other arguments must outlive this.
   GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache, const LuminaireSet& contained,
-                const Box3f& box)
-      : world_(world), space_(space), cache_(cache), contained_(contained), box_(box) {}
+                const Box3f& box);
 
   const World& world() const { return world_; }
   const Box3f& box() const { return box_; }
@@ -26,6 +25,7 @@ class GatheredLight {
   struct Surroundings {
     Moments moments;    ///< W/m2
     float insides = 0;  ///< share of the rays that met the inside of a solid
+    float noise = 0;    ///< of the moments, as a share of them: half of the rays against the other half
     uint64_t rays = 0;
   };
   /// The light of a node: what is around its viewpoint(). But where it lies close behind a surface that has one side, E
@@ -33,7 +33,8 @@ class GatheredLight {
   /// that lies on a sheet is all insides.
   Surroundings at_node(const Vec3f& node, const Vec3f& cell, Random& random) const;
 
-  /// Rays from a node: in a room they leave 1.4 % of noise (docs/light.md section 3: evenly spread, 64 leave 4 %).
+  /// Rays from a node, and as many again up to four times where they leave much noise: in a room they leave 1.4 %
+  /// (docs/light.md section 3: evenly spread, 64 leave 4 %).
   static constexpr int rays_a_node = 256;
   Surroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
 
@@ -47,6 +48,7 @@ class GatheredLight {
   /// A point of the last surface on the way, within `reach`, that faces along it, when only backs are met before;
   /// nothing when there is none.
   std::optional<Vec3f> facing_surface(const Vec3f& position, const Vec3f& direction, float reach, Random& random) const;
+  Surroundings without_much_noise(const Vec3f& position, Random& random) const;
   template <typename Add>
   uint64_t sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random, const Add& add) const;
 
@@ -55,6 +57,7 @@ class GatheredLight {
   const SurfaceCache& cache_;
   const LuminaireSet& contained_;
   const Box3f box_;
+  float dark_ = 0;  // of what size_of() moments is, W/m2: less is not worth more rays
 };
 
 /// Where the light of a node is looked for. A node on a face of the box of what is baked, where walls stand, is moved

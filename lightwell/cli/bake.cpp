@@ -57,7 +57,7 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
     if (!contained.contains(static_cast<int>(i))) continue;
     (luminaires[i].kind() == Luminaire::Kind::environment ? stated.contains.environment : stated.contains.lamps) = true;
   }
-  LW_TRY(camera, choose_camera(world.surfaces(), ""));
+  LW_TRY(camera, choose_camera(world, ""));
   bake.camera = camera;
   std::vector<float> errors;
   for (const BakedGrid& grid : grids) errors.push_back(grid.estimated_error);

@@ -69,9 +69,9 @@ Result<std::unique_ptr<const World>> ready(OpenedScene& opened, int threads, Pro
   return world_facing_light(opened.scene, threads, progress, report);
 }
 
-Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice) {
-  const Scene& scene = surfaces.scene();
-  if (choice.empty()) return scene.cameras.empty() ? overview_camera(surfaces) : scene.cameras.front();
+Result<Camera> choose_camera(const World& world, const std::string& choice) {
+  const Scene& scene = world.scene();
+  if (choice.empty()) return scene.cameras.empty() ? overview_camera(world) : scene.cameras.front();
   for (const Camera& camera : scene.cameras)
     if (camera.name == choice) return camera;
   const auto number = parse_count(choice);

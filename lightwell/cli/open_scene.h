@@ -23,6 +23,6 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
 Result<std::unique_ptr<const World>> ready(OpenedScene& opened, int threads, Progress& progress, Report& report);
 
 /// The camera with this name or number; an empty choice is the first one, or an overview where there is none.
-Result<Camera> choose_camera(const TraceScene& surfaces, const std::string& choice);
+Result<Camera> choose_camera(const World& world, const std::string& choice);
 
 }  // namespace lightwell

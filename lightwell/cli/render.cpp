@@ -50,7 +50,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   Figures figures;
   LW_TRY(opened, open_scene(options.scene, report, options.mesh_level));
   LW_TRY(world, ready(opened, options.scene.threads, progress, report));
-  LW_TRY(camera, choose_camera(world->surfaces(), options.camera));
+  LW_TRY(camera, choose_camera(*world, options.camera));
 
   RenderOptions render_options = options.render;
   set_size(options, camera, render_options);

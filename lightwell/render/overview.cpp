@@ -53,9 +53,19 @@ Camera level_camera(const Vec3f& eye, int heading) {
   return camera;
 }
 
+/// Whether a sample of the luminaires reaches a surface.
+bool is_lit(const World& world, const Hit& hit, Random& random) {
+  if (world.lights().dark()) return true;
+  const Arrival arrival = world.lights().sample(hit.position, random);
+  const Vec3f normal = hit.facing_normal();
+  return dot(normal, arrival.direction) > 0 && max_component(arrival.radiance) > 0 &&
+         max_component(visibility(world.surfaces(), hit.position, normal, arrival, random)) > 0;
+}
+
 /// The sum of the logarithms of the distances that a camera's rays go, each at least `nothing`; a ray that leaves the
-/// scene counts as `nothing`.
-float depth_of_view(const TraceScene& scene, const Camera& camera, float nothing) {
+/// scene counts as `nothing`, one that ends in the dark as a tenth.
+float depth_of_view(const World& world, const Camera& camera, float nothing) {
+  constexpr float worth_of_dark = 0.1f;
   Random random(0, 0);
   float sum = 0;
   for (int y = 0; y < view_rays[1]; y++)
@@ -63,20 +73,22 @@ float depth_of_view(const TraceScene& scene, const Camera& camera, float nothing
       const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(view_rays[0]);
       const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(view_rays[1]);
       Hit hit;
-      const bool met = scene.intersect(camera_ray(camera, view_aspect, u, v), random, hit);
-      sum += std::log(met ? std::max(hit.distance, nothing) : nothing);
+      float distance = 0;
+      if (world.surfaces().intersect(camera_ray(camera, view_aspect, u, v), random, hit))
+        distance = hit.distance * (is_lit(world, hit, random) ? 1 : worth_of_dark);
+      sum += std::log(std::max(distance, nothing));
     }
   return sum;
 }
 
-Camera view_from_within(const TraceScene& scene, const std::vector<Vec3f>& eyes) {
-  const float nothing = 1e-3f * length(scene.focus().size());
+Camera view_from_within(const World& world, const std::vector<Vec3f>& eyes) {
+  const float nothing = 1e-3f * length(world.surfaces().focus().size());
   Camera best;
   float farthest = -std::numeric_limits<float>::infinity();
   for (const Vec3f& eye : eyes)
     for (int heading = 0; heading < headings; heading++) {
       const Camera camera = level_camera(eye, heading);
-      const float depth = depth_of_view(scene, camera, nothing);
+      const float depth = depth_of_view(world, camera, nothing);
       if (depth <= farthest) continue;
       farthest = depth;
       best = camera;
@@ -108,7 +120,8 @@ Camera view_from_outside(const Box3f& box) {
 
 }  // namespace
 
-Camera overview_camera(const TraceScene& scene) {
+Camera overview_camera(const World& world) {
+  const TraceScene& scene = world.surfaces();
   std::vector<Vec3f> enclosed;
   const std::vector<Vec3f> points = lattice_points(scene.focus());
   float within = 0;
@@ -119,7 +132,7 @@ Camera overview_camera(const TraceScene& scene) {
   }
   const float least = std::max(least_enclosed * within, least_enclosed_of_all * static_cast<float>(points.size()));
   const bool inside = static_cast<float>(enclosed.size()) >= least;
-  return inside ? view_from_within(scene, enclosed) : view_from_outside(scene.focus());
+  return inside ? view_from_within(world, enclosed) : view_from_outside(scene.focus());
 }
 
 }  // namespace lightwell

@@ -40,31 +40,45 @@ TEST(Overview, IsInsideOfRooms) {
     auto scene = load_scene(name, {}, report);
     ASSERT_TRUE(scene.has_value());
     scene->cameras.clear();
-    const auto trace = traced(*scene);
-    const Camera camera = overview_camera(*trace);
-    EXPECT_TRUE(is_within(trace->bounds(), eye_of(camera))) << name;
-    EXPECT_GT(middle_distance(*trace, camera), 2) << name;
-    EXPECT_LT(middle_distance(*trace, camera), 10) << name;
+    const auto world = world_of(*scene);
+    const Camera camera = overview_camera(*world);
+    EXPECT_TRUE(is_within(world->surfaces().bounds(), eye_of(camera))) << name;
+    EXPECT_GT(middle_distance(world->surfaces(), camera), 2) << name;
+    EXPECT_LT(middle_distance(world->surfaces(), camera), 10) << name;
     EXPECT_EQ(camera.to_scene.z[1], 0) << name;
   }
 }
 
 TEST(Overview, IsInsideOfASphereSeenFromInside) {
   const Scene scene = scene_of(sphere(2, 3), lambertian(0.5f));
-  const auto trace = traced(scene);
-  const Camera camera = overview_camera(*trace);
+  const auto world = world_of(scene);
+  const Camera camera = overview_camera(*world);
   EXPECT_LT(length(eye_of(camera)), 2);
   // The best view of a sphere looks across it.
-  EXPECT_GT(middle_distance(*trace, camera), 2);
+  EXPECT_GT(middle_distance(world->surfaces(), camera), 2);
+}
+
+// Two equal rooms, one of them dark; and a long dark one beside a short lit one.
+TEST(Overview, IsWhereTheLightIs) {
+  for (const float end : {6.2f, 8.0f}) {
+    for (const float side : {1.0f, -1.0f}) {
+      Scene scene = scene_of(room({{-3, 0, 0}}, {{3, 3, 4}}), lambertian(0.5f));
+      const float lo = side > 0 ? 3.2f : -3.2f - end, hi = lo + end;
+      add(scene, room({{lo, 0, 0}}, {{hi, 3, 4}}), lambertian(0.5f));
+      scene.lamps = {point_lamp({{0, 2.5f, 2}}, Vec3f::filled(5))};
+      const auto world = world_of(scene);
+      EXPECT_LT(std::abs(eye_of(overview_camera(*world))[0]), 3) << end << ' ' << side;
+    }
+  }
 }
 
 TEST(Overview, IsOutsideOfSolids) {
   for (const Mesh& mesh : {block({{-3, 0, 2}}, {{5, 2, 4}}), turned(sphere(0.01f, 2))}) {
     const Scene scene = scene_of(mesh, lambertian(0.5f));
-    const auto trace = traced(scene);
-    const Camera camera = overview_camera(*trace);
-    expect_all_in_view(trace->bounds(), camera);
-    EXPECT_GT(camera.to_scene.t[2], static_cast<double>(trace->bounds().hi[2]));
+    const auto world = world_of(scene);
+    const Camera camera = overview_camera(*world);
+    expect_all_in_view(world->surfaces().bounds(), camera);
+    EXPECT_GT(camera.to_scene.t[2], static_cast<double>(world->surfaces().bounds().hi[2]));
   }
 }
 
@@ -79,11 +93,11 @@ TEST(Overview, IsOutsideOfOpenScenes) {
   ASSERT_EQ(open.faces.size(), 10u);
   const Scene stage = scene_of(open, lambertian(0.5f));
   for (const Scene* scene : std::initializer_list<const Scene*>{&statue, &stage}) {
-    const auto trace = traced(*scene);
-    const Camera camera = overview_camera(*trace);
-    expect_all_in_view(trace->bounds(), camera);
-    EXPECT_GT(camera.to_scene.t[2], static_cast<double>(trace->bounds().hi[2]));
-    EXPECT_LT(middle_distance(*trace, camera), 20);
+    const auto world = world_of(*scene);
+    const Camera camera = overview_camera(*world);
+    expect_all_in_view(world->surfaces().bounds(), camera);
+    EXPECT_GT(camera.to_scene.t[2], static_cast<double>(world->surfaces().bounds().hi[2]));
+    EXPECT_LT(middle_distance(world->surfaces(), camera), 20);
   }
 }
 
