@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace truth mesh light fetch server sizes frame growth direct)
+parts=(bake trace truth estimators real mesh light fetch server sizes frame growth direct)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -48,6 +48,44 @@ bench_truth() {
       python3 "$shared/tools/compare_truth.py" "$shared/truth/$scene.$points.indirect.csv" "$out/$scene.$points.csv" --max-rms 3 --max-bias $most_bias |
         grep -E '^(rms|bias|p95)'
     done
+  done
+}
+
+# Estimators in the truth's rooms: error against processor time.
+bench_estimators() {
+  [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
+  show "$programs/bake_bench" "$shared/truth"
+}
+
+# A row of real scenes: a default bake against the path tracer at 300 points of the scene's own surfaces. The path tracer's noise,
+# 1 to 2 % in rooms with lamps and more where the sky comes in by windows, is in it.
+real_row() { # NAME SCENE [options of the environment]
+  local name=$1 scene=$2
+  shift 2
+  mkdir -p "$out/real"
+  python3 "$shared/tools/surface_rms.py" "$lightwell" "$scene" "$out/real" --points 300 --spp 1024 "$@" >"$out/real/row.json" 2>"$out/real/errors" ||
+    { echo "| $name | failed: $(tail -1 "$out/real/errors") |"; return; }
+  python3 -c 'import json, sys
+r = json.load(open(sys.argv[2]))
+print("| %s | %d | %.1f | %+.1f | %.1f | %.1f | %d | %d |" % (sys.argv[1], r["points"], r["rms"], r["bias"], r["p95"], r["estimated"], r["nodes"], r["light_bytes"]))' "$name" "$out/real/row.json"
+}
+
+# Real rooms, objects and scans: those without a lamp under a uniform sky, and under a picture of one.
+bench_real() {
+  [ -d "$shared/data" ] || { missing "$shared/data"; return; }
+  local scene name sky
+  echo "| scene | points | rms % | bias % | 95th percentile % | stated % | nodes | bytes of light |"
+  echo "|---|---|---|---|---|---|---|---|"
+  for scene in "$shared"/data/{rooms,objects,scans}/*.{glb,ply,obj,ply.gz,obj.gz}; do
+    [ -e "$scene" ] || continue
+    name=$(basename "$scene")
+    if "$lightwell" bake "$scene" --grid 2 -o "$out/real.lw.glb" --quiet >/dev/null 2>&1; then
+      real_row "$name" "$scene"
+      continue
+    fi
+    real_row "$name, uniform sky" "$scene" --environment 1,1,1
+    sky=$(find "$shared/data/hdr" -name '*.hdr' | sort | head -1)
+    real_row "$name, $(basename "$sky")" "$scene" --environment "$sky"
   done
 }
 

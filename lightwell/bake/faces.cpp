@@ -20,8 +20,8 @@ constexpr float most_weight = 0x1p14f;
 
 }  // namespace
 
-FaceSums::FaceSums(const GridShape& shape)
-    : shape_(shape), unit_(max_component(shape.cell)), sums_(shape.count() * lanes) {}
+FaceSums::FaceSums(const GridShape& shape, bool as_printed)
+    : shape_(shape), as_printed_(as_printed), unit_(max_component(shape.cell)), sums_(shape.count() * lanes) {}
 
 void FaceSums::deposit(const Vec3f& origin, const Vec3f& direction, float length, const Vec3f& weight) {
   const Vec3f start = (origin - shape_.lo) / shape_.cell, speed = direction / shape_.cell;
@@ -59,10 +59,11 @@ void FaceSums::cross(int axis, const Vec3i& node, const Vec3f& w, const Vec3f& w
       sums[3 * moment + static_cast<size_t>(c)] += std::llround(value * resolution);
     }
   };
-  add(static_cast<size_t>(2 * axis + (w[axis] < 0)), 1);
+  const float cosine = std::abs(w[axis]), share = as_printed_ ? cosine : 1;
+  add(static_cast<size_t>(2 * axis + (w[axis] < 0)), share);
   // S for xy, xz, yz: the pairs of this axis with the two others.
   for (int b = 0; b < 3; b++)
-    if (b != axis) add(static_cast<size_t>(5 + axis + b), w[b] / (2 * w[axis]));
+    if (b != axis) add(static_cast<size_t>(5 + axis + b), share * w[b] / (2 * w[axis]));
 }
 
 FaceSums& FaceSums::operator+=(const FaceSums& other) {

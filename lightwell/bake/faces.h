@@ -17,7 +17,9 @@ namespace lightwell {
 /// uniform light it finds two thirds. The sums are integers, so the order of the flights does not matter.
 class FaceSums {
  public:
-  explicit FaceSums(const GridShape& shape);
+  /// `as_printed`: each photon's w p / A goes into the half-space's vector as in R09, without the cosine. For
+  /// comparison.
+  explicit FaceSums(const GridShape& shape, bool as_printed = false);
 
   /// Adds a photon's flight. `weight` is its flux relative to the one that moments() is given, of the order of 1. The
   /// flight may begin and end outside the grid and be infinitely long.
@@ -37,6 +39,7 @@ class FaceSums {
   void cross(int axis, const Vec3i& node, const Vec3f& w, const Vec3f& weight);
 
   GridShape shape_;
+  bool as_printed_;
   float unit_;                 // of length: the longest side of a cell
   std::vector<int64_t> sums_;  // of weight, divided by the area of a face in square units
 };

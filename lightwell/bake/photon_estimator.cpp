@@ -71,6 +71,10 @@ class PhotonEstimator : public Estimator {
   const float reference_flux_;  ///< flux of weight 1: the scene's power, about a photon's mean flux
 };
 
+struct PrintedFaceSums : public FaceSums {
+  explicit PrintedFaceSums(const GridShape& shape) : FaceSums(shape, true) {}
+};
+
 }  // namespace
 
 std::unique_ptr<Estimator> make_track_estimator(const BakeScene& scene, const GridShape& shape,
@@ -81,6 +85,11 @@ std::unique_ptr<Estimator> make_track_estimator(const BakeScene& scene, const Gr
 std::unique_ptr<Estimator> make_face_estimator(const BakeScene& scene, const GridShape& shape,
                                                const EstimatorOptions& options) {
   return std::make_unique<PhotonEstimator<FaceSums>>(scene.world, scene.space, shape, options);
+}
+
+std::unique_ptr<Estimator> make_printed_face_estimator(const BakeScene& scene, const GridShape& shape,
+                                                       const EstimatorOptions& options) {
+  return std::make_unique<PhotonEstimator<PrintedFaceSums>>(scene.world, scene.space, shape, options);
 }
 
 }  // namespace lightwell

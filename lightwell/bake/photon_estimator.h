@@ -14,4 +14,9 @@ std::unique_ptr<Estimator> make_track_estimator(const BakeScene& scene, const Gr
 std::unique_ptr<Estimator> make_face_estimator(const BakeScene& scene, const GridShape& shape,
                                                const EstimatorOptions& options);
 
+/// The faces of R09 with the weights that it prints, which find two thirds of uniform light. Not among estimators():
+/// for the benchmark that compares them.
+std::unique_ptr<Estimator> make_printed_face_estimator(const BakeScene& scene, const GridShape& shape,
+                                                       const EstimatorOptions& options);
+
 }  // namespace lightwell
