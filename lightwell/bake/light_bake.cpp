@@ -123,7 +123,7 @@ Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box
   const EstimatorOptions& estimator = options.estimator;
   const bool adaptive = options.nodes == 0;
   LW_TRY(shapes, place_nodes(world, space, box, options.nodes));
-  const float cell = max_component(shapes.front().cell) / static_cast<float>(adaptive ? 4 : 2);
+  const float cell = max_component(shapes.front().cell) / static_cast<float>(adaptive ? 6 : 3);
   LW_TRY(cache, light_surfaces(world, box, shapes.front(), cell, estimator, progress));
   const GatheredLight light(world, space, cache, estimator.contained, box);
   const TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
