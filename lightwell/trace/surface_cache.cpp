@@ -44,6 +44,12 @@ struct Place {
   Vec3f position{}, facing{};
 };
 
+/// Where a cell is told from others.
+struct Middle {
+  uint64_t key = 0;
+  Place place;
+};
+
 struct Cell {
   uint64_t key = 0;
   std::array<Place, most_places> places;
@@ -88,6 +94,8 @@ class SurfaceCacheBuilder {
       if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
     }
     solve();
+    if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
+    smooth();
     cache_.add_parents();
     return {};
   }
@@ -142,6 +150,7 @@ class SurfaceCacheBuilder {
     first_ = lights_.size();
     for (const Cell& cell : cells) cache_.numbers_.emplace(cell.key, static_cast<uint32_t>(cache_.numbers_.size()));
     lights_.resize(first_ + cells.size());
+    for (const Cell& cell : cells) middles_.push_back({cell.key, cell.places[0]});
     return cells;
   }
 
@@ -233,10 +242,44 @@ class SurfaceCacheBuilder {
     }
   }
 
+  /// Gives each cell the mean of itself and those around it that face the same way and that it sees: their samples are
+  /// few, and a room that the sky lights by a window needs many. Walls keep apart what they stand between.
+  void smooth() {
+    const std::vector<Vec3f>& irradiance = cache_.irradiance_;
+    std::vector<Vec3f> smoothed(irradiance.size());
+    parallel_for(smoothed.size(), 256, threads_, [&](size_t begin, size_t end, int) {
+      for (size_t i = begin; i < end; i++) {
+        Random random(options_.seed ^ 0x5300, middles_[i].key);
+        Vec3f sum = irradiance[i];
+        float count = 1;
+        for (int step = 0; step < 27; step++) {
+          const uint64_t key = SurfaceCells::beside(middles_[i].key, {{step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1}});
+          const auto found = cache_.numbers_.find(key);
+          if (found == cache_.numbers_.end() || found->second == i || !sees(i, found->second, random)) continue;
+          sum += irradiance[found->second];
+          count++;
+        }
+        smoothed[i] = sum / count;
+      }
+    });
+    cache_.irradiance_ = std::move(smoothed);
+  }
+
+  /// Whether nothing stands between two cells, half a cell in front of them.
+  bool sees(size_t from, size_t to, Random& random) const {
+    const float off = cache_.near() / 2;
+    const auto in_front = [&](const Place& place) { return place.position + place.facing * off; };
+    const Vec3f start = in_front(middles_[from].place), way = in_front(middles_[to].place) - start;
+    const float distance = length(way);
+    if (distance <= 0) return true;
+    return world_.surfaces().transmittance({start, way / distance, distance}, random) != Vec3f{};
+  }
+
   const World& world_;
   const SurfaceCacheOptions& options_;
   SurfaceCache& cache_;
   std::vector<CellLight> lights_;
+  std::vector<Middle> middles_;
   size_t first_ = 0;  // number of the round's first cell
   int threads_ = 1;
 };

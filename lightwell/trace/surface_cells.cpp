@@ -48,16 +48,37 @@ uint64_t SurfaceCells::at(const Vec3f& position, const Vec3f& facing) const {
   return pack(cube, static_cast<uint64_t>(level), facing_number(facing));
 }
 
-uint64_t SurfaceCells::parent(uint64_t cell) {
-  const uint64_t facing = cell & ((uint64_t(1) << facing_bits) - 1);
-  const uint64_t level = cell >> facing_bits & ((uint64_t(1) << level_bits) - 1);
-  std::array<int64_t, 3> cube;
+namespace {
+
+/// A cell's cube, level and facing.
+struct Parts {
+  std::array<int64_t, 3> cube{};
+  uint64_t level = 0, facing = 0;
+};
+
+Parts unpack(uint64_t cell) {
+  Parts parts;
+  parts.facing = cell & ((uint64_t(1) << facing_bits) - 1);
+  parts.level = cell >> facing_bits & ((uint64_t(1) << level_bits) - 1);
   for (size_t a = 0; a < 3; a++) {
     const int shift = facing_bits + level_bits + axis_bits * static_cast<int>(2 - a);
-    const auto number = static_cast<int64_t>(cell >> shift & static_cast<uint64_t>(axis_end - 1)) - axis_middle;
-    cube[a] = number >> 1;
+    parts.cube[a] = static_cast<int64_t>(cell >> shift & static_cast<uint64_t>(axis_end - 1)) - axis_middle;
   }
-  return pack(cube, level + 1, facing);
+  return parts;
+}
+
+}  // namespace
+
+uint64_t SurfaceCells::parent(uint64_t cell) {
+  Parts parts = unpack(cell);
+  for (int64_t& number : parts.cube) number >>= 1;
+  return pack(parts.cube, parts.level + 1, parts.facing);
+}
+
+uint64_t SurfaceCells::beside(uint64_t cell, const Vec3i& step) {
+  Parts parts = unpack(cell);
+  for (size_t a = 0; a < 3; a++) parts.cube[a] += step.e[a];
+  return pack(parts.cube, parts.level, parts.facing);
 }
 
 }  // namespace lightwell

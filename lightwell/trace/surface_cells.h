@@ -20,6 +20,8 @@ class SurfaceCells {
   uint64_t at(const Vec3f& position, const Vec3f& facing) const;
   /// The cell of twice the size that holds a cell.
   static uint64_t parent(uint64_t cell);
+  /// The cell of the same size and facing so many cubes away; `cell` itself at the end of the range.
+  static uint64_t beside(uint64_t cell, const Vec3i& step);
 
  private:
   Box3f region_;

@@ -81,5 +81,18 @@ TEST(SurfaceCells, ParentsHoldTheirChildren) {
   EXPECT_LE(parents.size(), 125u);
 }
 
+TEST(SurfaceCells, LieBesideThoseOneCubeAway) {
+  const float size = 0.25f;
+  const SurfaceCells cells(region, size);
+  for (uint64_t i = 0; i < 2000; i++) {
+    Random random(5, i);
+    const Vec3f point = Vec3f{{2, 1.5f, 2.5f}} + any_point(random, 1);
+    const Vec3i step{{static_cast<int>(random.below(3)) - 1, static_cast<int>(random.below(3)) - 1,
+                      static_cast<int>(random.below(3)) - 1}};
+    const Vec3f facing{{0, 1, 0}};
+    EXPECT_EQ(SurfaceCells::beside(cells.at(point, facing), step), cells.at(point + step.cast<float>() * size, facing));
+  }
+}
+
 }  // namespace
 }  // namespace lightwell
