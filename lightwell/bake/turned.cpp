@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "lightwell/bake/mesh_name.h"
 #include "lightwell/bake/surface_pieces.h"
 #include "lightwell/base/parallel.h"
 #include "lightwell/trace/photons.h"
@@ -150,12 +151,7 @@ class Turner {
     source["material"] = DocumentBuilder(scene_.document).add("materials", std::move(material));
   }
 
-  std::string name_of(const Primitive& primitive) const {
-    if (primitive.source_mesh < 0) return "a mesh";
-    const Json& mesh = scene_.document.json["meshes"][static_cast<size_t>(primitive.source_mesh)];
-    if (mesh.contains("name") && mesh["name"].is_string()) return '"' + mesh["name"].get<std::string>() + '"';
-    return "mesh " + std::to_string(primitive.source_mesh);
-  }
+  std::string name_of(const Primitive& primitive) const { return mesh_name(scene_, primitive); }
 
   static std::string names(const std::set<std::string>& all) {
     constexpr size_t most_named = 5;

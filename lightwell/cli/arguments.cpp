@@ -53,6 +53,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   add_choice<char>(command, "--up", options.import.up, {{"y", 'y'}, {"z", 'z'}}, "The file's axis that points up");
   add_number(command, "--unit", options.import.unit, unit_range, "Length of the file's unit in metres")
       ->default_str("1");
+  command
+      .add_option("--scene", options.import.scene,
+                  "Name or number of the file's scene that is shown (default: its own choice)")
+      ->type_name("NAME");
   add_whole(command, "--seed", options.import.seed, seed_range, "Seed of everything random");
   add_whole(command, "--threads", options.threads, {0, 1024}, "Threads, 0 for all processors");
 }

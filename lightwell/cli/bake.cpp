@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "lightwell/bake/enclosed_lamps.h"
 #include "lightwell/bake/lamps.h"
 #include "lightwell/bake/turned.h"
 #include "lightwell/base/file.h"
@@ -35,6 +36,14 @@ struct Bake {
   Report report;
 };
 
+bool is_dark(const LightField& field) {
+  for (const LightField::Layer& layer : field.layers())
+    for (const Moments& node : layer.grid.moments)
+      for (const Vec3f& moment : node.m)
+        if (moment != Vec3f{}) return false;
+  return true;
+}
+
 Result<void> import_scene(const Options& options, Progress& progress, Bake& bake) {
   LW_TRY(opened, open_scene(options.scene, bake.report));
   bake.scene = std::move(opened.scene);
@@ -45,6 +54,7 @@ Result<void> import_scene(const Options& options, Progress& progress, Bake& bake
 
 Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   const World& world = *bake.world;
+  warn_of_enclosed_lamps(world, bake.report);
   bake.plan = plan_lamps(world);
   const LuminaireSet& contained = bake.plan.contained;
   LW_TRY(grids, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
@@ -62,6 +72,7 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   std::vector<float> errors;
   for (const BakedGrid& grid : grids) errors.push_back(grid.estimated_error);
   bake.field = field_of(std::move(grids), stated.contains);
+  if (is_dark(bake.field)) bake.report.warn("no light reaches the free space of the scene: its light grid is black");
   for (size_t i = 0; i < errors.size(); i++) {
     const LightField::Layer& layer = bake.field.layers()[i];
     stated.grid = &layer.grid;
@@ -81,9 +92,9 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   bake.import_seconds = watch.lap();
   LW_CHECK(bake_grid(options, progress, bake));
   bake.light_seconds = watch.lap();
+  const float extent = length(bake.world->surfaces().focus().size());
   bake.world.reset();
-  if (bake.scene.cameras.empty())
-    add_camera(bake.scene.document, bake.camera, 1e-3f * length(bake.scene.bounds().size()));
+  if (bake.scene.cameras.empty()) add_camera(bake.scene.document, bake.camera, 1e-3f * extent);
   LW_TRY(file, make_pack(bake.scene, bake.light, options.pack, progress, bake.report, bake.pack_statistics));
   bake.file = std::move(file);
   bake.geometry_seconds = watch.lap();

@@ -42,6 +42,15 @@ constexpr std::array known = std::to_array<std::string_view>({
     "MSFT_lod",
 });
 
+/// Data about what is shown, which cannot change its shape or its light: left out even where a file requires them.
+constexpr std::array metadata = std::to_array<std::string_view>({
+    "EXT_feature_metadata",
+    "EXT_instance_features",
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "KHR_xmp",
+});
+
 /// Removes names from the lists of extensions, and lists that become empty.
 template <typename Unwanted>
 void forget(Json& json, const Unwanted& unwanted) {
@@ -60,6 +69,8 @@ void forget(Json& json, const Unwanted& unwanted) {
 bool is_known(std::string_view name) {
   return std::find(known.begin(), known.end(), name) != known.end() || name.starts_with("LIGHTWELL_");
 }
+
+bool is_metadata(std::string_view name) { return std::find(metadata.begin(), metadata.end(), name) != metadata.end(); }
 
 /// Removes unknown extensions and collects their names. Extras may hold anything and are left alone.
 void drop_unknown(Json& json, std::set<std::string>& dropped) {
@@ -87,7 +98,7 @@ void drop_unknown(Json& json, std::set<std::string>& dropped) {
 
 Result<void> check_required_extensions(const Json& json) {
   for (const Json& name : member(json, "extensionsRequired"))
-    if (name.is_string() && !is_known(name.get<std::string>()))
+    if (name.is_string() && !is_known(name.get<std::string>()) && !is_metadata(name.get<std::string>()))
       return fail(ErrorKind::unsupported, "extensionsRequired",
                   name.get<std::string>().substr(0, 80) + " is not supported");
   return {};

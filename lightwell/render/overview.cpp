@@ -32,14 +32,30 @@ std::vector<Vec3f> lattice_points(const Box3f& box) {
   return points;
 }
 
-/// The share of a point's sight lines that end on the front of a surface, not on a back or nowhere.
-float share_of_fronts(const TraceScene& scene, const Vec3f& point) {
+/// Whether a sample of the luminaires reaches a surface.
+bool is_lit(const World& world, const Hit& hit, Random& random) {
+  if (world.lights().dark()) return true;
+  const Arrival arrival = world.lights().sample(hit.position, random);
+  const Vec3f normal = hit.facing_normal();
+  return dot(normal, arrival.direction) > 0 && max_component(arrival.radiance) > 0 &&
+         max_component(visibility(world.surfaces(), hit.position, normal, arrival, random)) > 0;
+}
+
+/// The share of a point's sight lines that end on the front of a surface, not on a back or nowhere. Backs of surfaces
+/// with two sides are fronts where light reaches them, as in a room, and not in the dark inside of a solid.
+float share_of_fronts(const World& world, const Vec3f& point) {
+  constexpr int lit_of_backs = 10;  // one of so many
   Random random(0, 0);
-  int fronts = 0;
+  int fronts = 0, backs = 0, lit = 0;
   for (int i = 0; i < sight_lines; i++) {
     Hit hit;
-    fronts += scene.intersect({point, sample_sphere(random)}, random, hit) && hit.front;
+    if (!world.surfaces().intersect({point, sample_sphere(random)}, random, hit)) continue;
+    fronts += hit.front;
+    if (hit.front || !world.surfaces().material(hit.instance).double_sided) continue;
+    backs++;
+    lit += is_lit(world, hit, random);
   }
+  if (!world.lights().dark() && lit_of_backs * lit >= backs) fronts += backs;
   return static_cast<float>(fronts) / sight_lines;
 }
 
@@ -51,15 +67,6 @@ Camera level_camera(const Vec3f& eye, int heading) {
   camera.yfov = 1;
   camera.to_scene = looking_at(eye.cast<double>(), eye.cast<double>() + Vec3d{{std::sin(angle), 0, -std::cos(angle)}});
   return camera;
-}
-
-/// Whether a sample of the luminaires reaches a surface.
-bool is_lit(const World& world, const Hit& hit, Random& random) {
-  if (world.lights().dark()) return true;
-  const Arrival arrival = world.lights().sample(hit.position, random);
-  const Vec3f normal = hit.facing_normal();
-  return dot(normal, arrival.direction) > 0 && max_component(arrival.radiance) > 0 &&
-         max_component(visibility(world.surfaces(), hit.position, normal, arrival, random)) > 0;
 }
 
 /// The sum of the logarithms of the distances that a camera's rays go, each at least `nothing`; a ray that leaves the
@@ -126,7 +133,7 @@ Camera overview_camera(const World& world) {
   const std::vector<Vec3f> points = lattice_points(scene.focus());
   float within = 0;
   for (const Vec3f& point : points) {
-    const float fronts = share_of_fronts(scene, point);
+    const float fronts = share_of_fronts(world, point);
     within += fronts >= least_fronts_within;
     if (fronts >= 1 - most_strays) enclosed.push_back(point);
   }

@@ -47,6 +47,8 @@ class Renderer {
                             .shading_normal = surfaces.shading_normal(hit),
                             .out = -ray.direction,
                             .bsdf = surface.bsdf};
+    // What is unlit shows its colour, as in every viewer, and no light.
+    if (surfaces.material(hit.instance).unlit) return total ? hit.tint * surface.bsdf.diffuse : Vec3f{};
     Vec3f sum = total ? surfaces.emission(hit, surface) : Vec3f{};
     if (integrator_->samples()) {
       const ReflectedLight light = integrator_->sample(receiver, random);

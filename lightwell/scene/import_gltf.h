@@ -12,6 +12,10 @@ namespace lightwell {
 /// formats, flattened nodes).
 Result<Scene> scene_from_document(Document document, std::string name, Report& report);
 
+/// Makes another scene of a document its default one, by name or number. An empty choice keeps the default one.
+/// `report` is told of the scenes that are not shown.
+Result<void> choose_scene(Document& document, const std::string& choice, Report& report);
+
 /// Turns a document whose `up` axis is 'y' or 'z' and whose unit is `unit` metres into one in metres with y up, by a
 /// root node above all others. A document that is in metres with y up stays as it is.
 void reorient(Document& document, char up, float unit);

@@ -64,6 +64,7 @@ class MaterialReader {
 
   /// An unlit surface shows its colour without light; for the light around it, it is a diffuse one of that colour.
   static void make_diffuse(Material& material) {
+    material.unlit = true;
     material.metallic = 0;
     material.roughness = 1;
     material.metallic_roughness_texture = {};

@@ -85,6 +85,7 @@ Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& 
   LW_TRY(file, read_file(path, inflate));
   LW_TRY(document, document_of(file, path.parent_path(), report));
   file = {};  // the document has its own copy of what it needs
+  LW_CHECK(choose_scene(document, options.scene, report));
   reorient(document, options.up, options.unit);
   return scene_from_document(std::move(document), scene_name(path), report);
 }

@@ -75,6 +75,9 @@ bool is_index(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && value != 0;
 }
 
+/// A corner without the slashes behind which nothing stands, as in "1//" and "1/2/".
+std::string_view without_empty_indices(std::string_view word) { return word.substr(0, word.find_last_not_of('/') + 1); }
+
 /// "1", "1/2", "1/2/3" or "1//3", where each number may be negative but not zero.
 bool is_corner(std::string_view word) {
   const size_t first = std::min(word.find('/'), word.size());
@@ -87,14 +90,20 @@ bool is_corner(std::string_view word) {
   return !has_normal || is_index(word.substr(second + 1));
 }
 
-/// The reason why the corners of a face cannot be read; empty when they can.
-std::string fault_of_face(std::string_view corners) {
+/// A face in the form that the library reads, or the reason why its corners cannot be read.
+Result<std::string> checked_face(std::string_view corners) {
   size_t count = 0;
+  std::string face = "f";
   for (std::string_view word = take_word(corners); !word.empty(); word = take_word(corners), count++) {
-    if (!is_corner(word)) return "a face's corner that is no index";
+    // At most two slashes, whatever is between them.
+    if (std::count(word.begin(), word.end(), '/') > 2) return fail("", "a face's corner that is no index");
+    word = without_empty_indices(word);
+    if (!is_corner(word)) return fail("", "a face's corner that is no index");
+    face += ' ';
+    face += word;
   }
-  if (count > most_corners) return "a face of " + std::to_string(count) + " corners; 255 are the most";
-  return {};
+  if (count > most_corners) return fail("", "a face of " + std::to_string(count) + " corners; 255 are the most");
+  return face;
 }
 
 std::string with_underscores(std::string_view name) {
@@ -114,6 +123,18 @@ std::string with_escapes(std::string_view name) {
   return escaped;
 }
 
+/// A keyword of an MTL file in the library's spelling: exporters write map_KD, Map_Kd and others.
+std::string_view as_the_library_spells(std::string_view word) {
+  constexpr std::string_view keywords[] = {"newmtl", "Ka",     "Kd",     "Ks",     "Ke",     "Ns",    "d",    "Tr",
+                                           "illum",  "map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_d", "bump", "norm"};
+  const auto lower = [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); };
+  for (const std::string_view keyword : keywords)
+    if (std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                   [&](char a, char b) { return lower(a) == lower(b); }))
+      return keyword;
+  return word;
+}
+
 bool is_left_out_with_warning(std::string_view keyword) {
   constexpr std::string_view keywords[] = {"p", "l", "curv", "curv2", "surf"};
   return std::find(std::begin(keywords), std::end(keywords), keyword) != std::end(keywords);
@@ -128,12 +149,7 @@ Result<std::string> checked_statement(std::string_view line, Report& report) {
     if (!begins_with_numbers(rest, keyword == "vt" ? 1 : 3)) return fail("", "a vertex with too few numbers");
     return std::string(keyword) + " " + std::string(trimmed(rest));
   }
-  if (keyword == "f") {
-    rest = without_comment(rest);
-    const std::string fault = fault_of_face(rest);
-    if (!fault.empty()) return fail("", fault);
-    return "f " + std::string(trimmed(rest));
-  }
+  if (keyword == "f") return checked_face(without_comment(rest));
   if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
     const std::string name = with_underscores(rest);
     return std::string(keyword) + " " + (name.empty() ? "unnamed" : name);
@@ -181,10 +197,14 @@ std::string checked_mtl_text(Bytes file) {
   for (size_t lines = 0; !text.empty();) {
     const std::string line = take_line(text, lines);
     std::string_view rest = line;
-    if (take_word(rest) == "newmtl") {
+    const std::string_view word = take_word(rest);
+    const std::string_view keyword = as_the_library_spells(word);
+    if (keyword == "newmtl") {
       checked += "newmtl " + with_underscores(rest);
     } else {
-      checked += trimmed(line);
+      std::string value(trimmed(rest));
+      if (keyword.starts_with("map_")) std::replace(value.begin(), value.end(), '\\', '/');
+      checked += std::string(keyword) + ' ' + value;
     }
     checked += '\n';
   }

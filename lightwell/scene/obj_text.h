@@ -15,10 +15,11 @@ bool is_obj(Bytes bytes);
 /// for zeros, counts a face's corners in eight bits, ends names at spaces, knows no continued lines, and lets a short
 /// line reserve much memory. So every line is checked here first, and an error names the line; statements that
 /// Lightwell does not use are left out (points, lines and curves with a warning), continued lines are joined, and
-/// spaces in names become underscores. Lines keep their numbers.
+/// spaces in names become underscores, and slashes behind which no index stands ("1//") go. Lines keep their numbers.
 Result<std::string> checked_obj_text(Bytes file, Report& report);
 
-/// The text of an MTL file with spaces in the materials' names replaced in the same way.
+/// The text of an MTL file with spaces in the materials' names replaced in the same way, keywords in the case in which
+/// the library knows them, and backslashes in the names of textures turned.
 std::string checked_mtl_text(Bytes file);
 
 }  // namespace lightwell

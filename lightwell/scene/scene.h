@@ -41,6 +41,7 @@ struct Material {
   Alpha alpha = Alpha::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
+  bool unlit = false;  ///< KHR_materials_unlit: shows its base colour; for the light around it, it is a diffuse one
 };
 
 /// One drawable piece of a mesh: a glTF primitive of triangles, shared by all its instances.
@@ -111,6 +112,7 @@ struct ImportOptions {
   char up = 'y';      ///< the axis of the file that points up: 'y' or 'z'
   float unit = 1;     ///< length of the file's unit in metres
   uint64_t seed = 1;  ///< of built-in scenes
+  std::string scene = {};  ///< name or number of the scene in a glTF that is shown; empty: its default one
 };
 
 /// Reads a scene: a glTF 2.0 or GLB, OBJ or PLY file, each possibly gzipped, recognised by content; or a built-in scene

@@ -7,7 +7,7 @@ namespace lightwell {
 namespace {
 
 /// Of the scene's extent: a larger part is not worth being told apart.
-constexpr float most_of_whole = 1.0f / 8;
+constexpr float most_of_whole = 1.0f / 32;
 /// Of the faces: what is left without surroundings, unless lamps or cameras tell what is meant; and what strays may
 /// have.
 constexpr double least_left = 0.5, most_strays = 0.05;

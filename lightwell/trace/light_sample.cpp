@@ -13,7 +13,8 @@ Vec3f visibility(const TraceScene& surfaces, const Vec3f& position, const Vec3f&
     const float distance = length(way);
     if (distance == 0) return Vec3f::filled(1);
     ray.direction = way / distance;
-    ray.far = distance * (1 - 1e-4f);
+    ray.far = distance * (1 - 1e-4f) - arrival.clearance;
+    if (ray.far <= 0) return Vec3f::filled(1);
   }
   return surfaces.transmittance(ray, random);
 }

@@ -19,6 +19,7 @@ struct Arrival {
   float distance = 0;    ///< to the source; infinite for suns and the environment
   Vec3f radiance{};      ///< W/m2/sr; without extent: irradiance facing the source, W/m2; 0: no light
   float density = 0;     ///< of the sample, 1/sr; of a source without extent: its probability
+  float clearance = 0;   ///< so near to the source nothing hides it, metres
   bool extended = true;  ///< false: a source without extent, which BSDF samples cannot hit
   int luminaire = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/trace/lights.h"
 
+#include "lightwell/trace/enclosure.h"
 #include "lightwell/trace/punctual_light.h"
 
 namespace lightwell {
@@ -19,7 +20,9 @@ Lights::Lights(const TraceScene& scene)
       environment_(scene.scene().environment),
       region_(scene.bounds(), !environment_.black()),
       inventory_(take_inventory(scene, environment_, region_)),
-      choice_(weights_of(inventory_)) {}
+      choice_(weights_of(inventory_)) {
+  for (const Lamp& lamp : scene.scene().lamps) clearances_.push_back(bulb_radius(scene, lamp));
+}
 
 bool Lights::finite() const { return std::isfinite(choice_.total()) && is_finite(power()); }
 
@@ -39,7 +42,13 @@ Emission Lights::emit(Random& random) const {
   const Luminaire& luminaire = luminaires()[static_cast<size_t>(number)];
   Emission emission;
   switch (luminaire.kind()) {
-    case Luminaire::Kind::lamp: emission = emit_punctual(lamp(luminaire), region_, random); break;
+    case Luminaire::Kind::lamp: {
+      emission = emit_punctual(lamp(luminaire), region_, random);
+      const float clearance = clearances_[static_cast<size_t>(luminaire.index)];
+      emission.ray.origin += emission.ray.direction * clearance;
+      emission.ray.far = std::max(emission.ray.far - clearance, 0.0f);
+      break;
+    }
     case Luminaire::Kind::surface: emission = face(chosen).emit(scene_, random); break;
     case Luminaire::Kind::environment: emission = environment_.emit(region_, random); break;
   }
@@ -54,7 +63,10 @@ Arrival Lights::sample(const Vec3f& point, Random& random) const {
   const Luminaire& luminaire = luminaires()[static_cast<size_t>(number)];
   Arrival arrival;
   switch (luminaire.kind()) {
-    case Luminaire::Kind::lamp: arrival = arrive_punctual(lamp(luminaire), point); break;
+    case Luminaire::Kind::lamp:
+      arrival = arrive_punctual(lamp(luminaire), point);
+      arrival.clearance = clearances_[static_cast<size_t>(luminaire.index)];
+      break;
     case Luminaire::Kind::surface: arrival = face(chosen).arrive(scene_, point, random); break;
     case Luminaire::Kind::environment: arrival = environment_.arrive(random); break;
   }

@@ -53,6 +53,7 @@ class Lights {
   LightRegion region_;
   LuminaireInventory inventory_;
   Distribution choice_;
+  std::vector<float> clearances_;  // of the scene's lamps: bulb_radius
 };
 
 }  // namespace lightwell

@@ -129,6 +129,18 @@ TEST(Container, RequiredExtensionsAreNamedAndOptionalOnesLeftOut) {
   EXPECT_EQ(error_of(glb(document.json, document.buffers[0])), "extensionsRequired: EXT_unknown is not supported");
 }
 
+TEST(Container, MetadataMayBeRequired) {
+  Document document = document_of(square());
+  document.json["extensionsUsed"] =
+      document.json["extensionsRequired"] = {"EXT_mesh_features", "EXT_structural_metadata"};
+  Report report;
+  const auto read = read_document(glb(document.json, document.buffers[0]), "", report);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"extensions left out, not supported: EXT_mesh_features, EXT_structural_metadata"});
+  EXPECT_FALSE(read->json.contains("extensionsRequired"));
+}
+
 // A limit that any quadratic step would exceed by far.
 TEST(Container, ManyNodesAndADeepTreeAreReadInLinearTime) {
   Document document = document_of(square());

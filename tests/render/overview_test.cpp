@@ -72,6 +72,27 @@ TEST(Overview, IsWhereTheLightIs) {
   }
 }
 
+// A sheet between a lit and a dark room, whose back the lit one sees.
+TEST(Overview, IsBeforeASheetThatShowsItsBack) {
+  Scene scene = scene_of(room({{-4, 0, -2}}, {{4, 3, 2}}), lambertian(0.5f));
+  add(scene, quad({{0, 0, -2}}, {{0, 3, 0}}, {{0, 0, 4}}), lambertian(0.5f));
+  for (Material& material : scene.materials) material.double_sided = true;
+  for (const float side : {-1.0f, 1.0f}) {
+    scene.lamps = {point_lamp({{2 * side, 2.5f, 0}}, Vec3f::filled(5))};
+    const auto world = world_of(scene);
+    EXPECT_GT(eye_of(overview_camera(*world))[0] * side, 0);
+  }
+}
+
+// A scan that is declared to have two sides, in the light of a sky: its inside is dark.
+TEST(Overview, IsOutsideOfADoubleSidedScan) {
+  Scene scene = scene_of(turned(sphere(1, 3)), lambertian(0.5f));
+  scene.materials[0].double_sided = true;
+  scene.environment.radiance = Vec3f::filled(1);
+  const auto world = world_of(scene);
+  EXPECT_GT(length(eye_of(overview_camera(*world))), 1);
+}
+
 TEST(Overview, IsOutsideOfSolids) {
   for (const Mesh& mesh : {block({{-3, 0, 2}}, {{5, 2, 4}}), turned(sphere(0.01f, 2))}) {
     const Scene scene = scene_of(mesh, lambertian(0.5f));

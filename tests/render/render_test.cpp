@@ -169,5 +169,18 @@ TEST(Render, RefusesWhatItCannotDo) {
   EXPECT_EQ(render(*world, {}, options, silent, statistics).error().message(), "picture: its size must be positive");
 }
 
+// Its colour, whatever the light: in the whole picture, and in no part of the light.
+TEST(Render, ShowsWhatIsUnlitAsItIs) {
+  Scene scene = scene_of(quad({{-5, -5, -1}}, {{10, 0, 0}}, {{0, 10, 0}}), lambertian({{0.2f, 0.4f, 0.9f}}));
+  scene.materials[0].unlit = true;
+  scene.environment.radiance = Vec3f::filled(3);
+  const auto world = world_of(scene);
+  Camera camera;
+  const Picture picture = take(*world, camera, small(LightPart::total));
+  for (size_t i = 0; i < picture.pixels.size(); i++)
+    ASSERT_NEAR(picture.pixels[i], (std::array{0.2f, 0.4f, 0.9f}[i % 3]), 1e-5f);
+  EXPECT_EQ(mean(take(*world, camera, small(LightPart::indirect))), 0);
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -352,5 +352,25 @@ TEST(Reorient, ChangesNothingWhereNothingIsToDo) {
   EXPECT_EQ(empty.json, Document().json);
 }
 
+TEST(ImportGltf, ShowsTheChosenSceneAndNamesTheOthers) {
+  Document document = scene_document(R"([{"mesh": 0}, {"mesh": 0, "translation": [5, 0, 0]}])", {0});
+  document.json["scenes"][0]["name"] = "day";
+  document.json["scenes"].push_back({{"nodes", {1}}, {"name", "night"}});
+  document.json["scenes"].push_back({{"nodes", {0, 1}}});
+  const auto shown = [&](const std::string& choice, const char* warning) {
+    Document copy = document;
+    Report report;
+    EXPECT_TRUE(choose_scene(copy, choice, report));
+    EXPECT_EQ(report.warnings, std::vector<std::string>{warning});
+    return import(std::move(copy)).instances;
+  };
+  EXPECT_EQ(shown("", "scene \"day\" is shown, not \"night\", 2; --scene chooses")[0].to_scene.t[0], 0);
+  EXPECT_EQ(shown("night", "scene \"night\" is shown, not \"day\", 2; --scene chooses")[0].to_scene.t[0], 5);
+  EXPECT_EQ(shown("2", "scene 2 is shown, not \"day\", \"night\"; --scene chooses").size(), 2u);
+  Report report;
+  EXPECT_EQ(choose_scene(document, "dusk", report).error().message(),
+            "scene dusk: is not in the file, which has \"day\", \"night\", 2");
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -92,6 +92,25 @@ TEST_F(ObjTest, ReadsMaterialsOfFilesBelow) {
   EXPECT_EQ(report.warnings.size(), 1u);  // of "nowhere"
 }
 
+// Exporters leave indices empty that they do not use.
+TEST_F(ObjTest, TakesAnEmptyIndexForNone) {
+  const std::string extra = "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n";
+  for (const char* face :
+       {"f 1// 2// 3//\n", "f 1/ 2/ 3/\n", "f 1/1/ 2/2/ 3/3/\n", "f 1//1 2//1 3//1\n", "f 1 2/ 3//\n"}) {
+    const Scene scene = read_well(square + extra + face);
+    ASSERT_EQ(scene.primitives.size(), 1u) << face;
+    EXPECT_EQ(scene.primitives[0].mesh.faces.size(), 1u) << face;
+    EXPECT_EQ(scene.primitives[0].mesh.texcoords[0].size(), std::string_view(face).starts_with("f 1/1") ? 3u : 0u)
+        << face;
+  }
+}
+
+TEST_F(ObjTest, ReadsKeywordsOfAMaterialInAnyCaseAndEitherSlash) {
+  EXPECT_EQ(checked_mtl_text(
+                as_bytes(std::string("newmtl a b\nKD 1 0 0\nmap_KD .\\sub\\a.png\nmap_kd -o 1 1 b.png\nPm 1\n"))),
+            "newmtl a_b\nKd 1 0 0\nmap_Kd ./sub/a.png\nmap_Kd -o 1 1 b.png\nPm 1\n");
+}
+
 // Materials that share an image share its texture, and what of them is not read is named once.
 TEST_F(ObjTest, SharesImagesAndNamesWhatItLeavesOut) {
   write("wood.png", write_png(Image{1, 1, 3, {10, 20, 30}}));
@@ -134,8 +153,7 @@ TEST_F(ObjTest, LeavesOutPointsAndLinesWithAWarning) {
 }
 
 TEST_F(ObjTest, RefusesFaultsByLine) {
-  for (const std::string text : {"v 0 0\n", "v a b c\n", "v 0 0 nan\n", "vn 1 0\n", "vt\n", "f 0 1 2\n", "f 1/ 2 3\n",
-                                 "f 1// 2 3\n", "f 1 2 x\n"}) {
+  for (const std::string text : {"v 0 0\n", "v a b c\n", "v 0 0 nan\n", "vn 1 0\n", "vt\n", "f 0 1 2\n",                                  "f 1//x 2 3\n", "f 1 2 x\n", "f 1/// 2 3\n", "f // 2 3\n"}) {
     const auto scene = read(square + text);
     ASSERT_FALSE(scene) << text;
     EXPECT_EQ(scene.error().element, "line 5") << text;

@@ -7,6 +7,7 @@ import {
   DoubleSide,
   Group,
   type Material,
+  type Mesh,
   type Object3DEventMap,
   SpotLight,
   Vector3,
@@ -286,16 +287,38 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     for (const { node, primitive } of definitions)
       if (node !== undefined && primitive !== undefined)
         for (const mesh of this.opening.meshesOf(node, primitive)) mesh.castShadow = false;
+    const focus = this.#focus();
+    for (const { center, kind } of definitions)
+      if (center !== undefined && (kind === 'point' || kind === 'spot'))
+        for (const mesh of meshesIn(this.opening.gltf.scene))
+          if (isBulb(mesh, new Vector3(...center), focus)) mesh.castShadow = false;
     const maps = meshesIn(this.opening.gltf.scene).flatMap(materialsOf).map(mapsOf);
-    const lamps = createLamps(definitions, this.bounds, Math.max(0, ...maps.map(({ length }) => length)));
+    const lamps = createLamps(definitions, focus, Math.max(0, ...maps.map(({ length }) => length)));
     for (const lamp of lamps)
       if (lamp instanceof SpotLight || lamp instanceof DirectionalLight) this.add(lamp.target);
     return lamps;
   }
 
+  /** The part of the scene that its first grid covers: a ground may reach far beyond it. */
+  #focus(): Box3 {
+    const grids = [...(this.opening.extensions.LIGHTWELL_light_grids?.grids ?? [])];
+    grids.sort((a, b) => (b.priority ?? 0) - (a.priority ?? 0));
+    if (grids[0] === undefined) return this.bounds;
+    const { min, cell, nodes } = grids[0];
+    const size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
+    return new Box3(new Vector3(...min), new Vector3(...min).add(size)).intersect(this.bounds);
+  }
+
   #changed(): void {
     this.dispatchEvent({ type: 'change' });
   }
+}
+
+/** Whether a mesh stands right round a lamp and is small: it does not stop the lamp's light, as in the bake. */
+function isBulb(mesh: Mesh, lamp: Vector3, focus: Box3): boolean {
+  const box = new Box3().setFromObject(mesh);
+  const sides = box.getSize(new Vector3()).toArray(), all = focus.getSize(new Vector3()).toArray();
+  return box.containsPoint(lamp) && Math.max(...sides) <= Math.max(...all) / 8;
 }
 
 /** Surfaces cast and take shadows on both sides, as in the bake. */
