@@ -77,9 +77,9 @@ export class Orbit {
 
   /** Looks through the pack's first camera, or else at the whole pack; the clipping planes fit its size. */
   frame(pack: LightwellScene, fieldOfView: number): void {
-    const sphere = pack.bounds.getBoundingSphere(new Sphere());
+    const sphere = pack.focus.getBoundingSphere(new Sphere());
     this.#camera.near = sphere.radius / 500;
-    this.#camera.far = sphere.radius * 50;
+    this.#camera.far = Math.max(sphere.radius * 50, pack.bounds.getBoundingSphere(new Sphere()).radius * 4);
     this.#controls.maxDistance = sphere.radius * 20;
     this.#controls.minDistance = sphere.radius / 100;
     const packCamera = pack.opening.gltf.cameras[0];

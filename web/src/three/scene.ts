@@ -75,6 +75,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly exposure: number;
   /** The final bounds of the pack's meshes, in the pack's space. */
   readonly bounds: Box3;
+  /** What the pack is about: the part that its first grid covers. A ground may reach far beyond it. */
+  readonly focus: Box3;
   readonly #connection: PackConnection;
   readonly #renderer: WebGLRenderer;
   readonly #meshes = new Map<number, MeshRefinement>();
@@ -105,6 +107,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.add(opening.gltf.scene);
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
     this.bounds = finalBounds(opening);
+    this.focus = focusOf(opening, this.bounds);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
     this.grids = grids;
     for (const grid of grids) this.#lights.set(assetOf(grid.definition), new LightRefinement(grid, renderer));
@@ -287,26 +290,15 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     for (const { node, primitive } of definitions)
       if (node !== undefined && primitive !== undefined)
         for (const mesh of this.opening.meshesOf(node, primitive)) mesh.castShadow = false;
-    const focus = this.#focus();
     for (const { center, kind } of definitions)
       if (center !== undefined && (kind === 'point' || kind === 'spot'))
         for (const mesh of meshesIn(this.opening.gltf.scene))
-          if (isBulb(mesh, new Vector3(...center), focus)) mesh.castShadow = false;
+          if (isBulb(mesh, new Vector3(...center), this.focus)) mesh.castShadow = false;
     const maps = meshesIn(this.opening.gltf.scene).flatMap(materialsOf).map(mapsOf);
-    const lamps = createLamps(definitions, focus, Math.max(0, ...maps.map(({ length }) => length)));
+    const lamps = createLamps(definitions, this.focus, Math.max(0, ...maps.map(({ length }) => length)));
     for (const lamp of lamps)
       if (lamp instanceof SpotLight || lamp instanceof DirectionalLight) this.add(lamp.target);
     return lamps;
-  }
-
-  /** The part of the scene that its first grid covers: a ground may reach far beyond it. */
-  #focus(): Box3 {
-    const grids = [...(this.opening.extensions.LIGHTWELL_light_grids?.grids ?? [])];
-    grids.sort((a, b) => (b.priority ?? 0) - (a.priority ?? 0));
-    if (grids[0] === undefined) return this.bounds;
-    const { min, cell, nodes } = grids[0];
-    const size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
-    return new Box3(new Vector3(...min), new Vector3(...min).add(size)).intersect(this.bounds);
   }
 
   #changed(): void {
@@ -319,6 +311,16 @@ function isBulb(mesh: Mesh, lamp: Vector3, focus: Box3): boolean {
   const box = new Box3().setFromObject(mesh);
   const sides = box.getSize(new Vector3()).toArray(), all = focus.getSize(new Vector3()).toArray();
   return box.containsPoint(lamp) && Math.max(...sides) <= Math.max(...all) / 8;
+}
+
+function focusOf({ extensions }: Opening, bounds: Box3): Box3 {
+  const grids = [...(extensions.LIGHTWELL_light_grids?.grids ?? [])];
+  grids.sort((a, b) => (b.priority ?? 0) - (a.priority ?? 0));
+  if (grids[0] === undefined) return bounds;
+  const { min, cell, nodes } = grids[0];
+  const first = new Vector3(...min);
+  const size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
+  return new Box3(first, size.add(first)).intersect(bounds);
 }
 
 /** Surfaces cast and take shadows on both sides, as in the bake. */
