@@ -143,7 +143,8 @@ std::optional<Vec3f> GatheredLight::facing_surface(const Vec3f& position, const 
   return last;
 }
 
-Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random) const {
+Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random,
+                                float near) const {
   Vec3f sum{};
   const Frame frame(normal);
   const float shift = random.uniform(), turn = random.uniform();
@@ -151,7 +152,7 @@ Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int 
   for (int i = 0; i < rays; i++) {
     const Vec3f up = cosine_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
     const Gathering gathering =
-        gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, cache_.near(), random);
+        gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, near * cache_.near(), random);
     const Vec3f direction = frame.to_world(up);
     sum += (cache_.reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
   }

@@ -38,8 +38,9 @@ class GatheredLight {
   static constexpr int rays_a_node = 256;
   Surroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
 
-  /// The irradiance of a surface, W/m2.
-  Vec3f irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random) const;
+  /// The irradiance of a surface, W/m2. Rays that end within so many cells of the surface cache are followed on: see
+  /// gather().
+  Vec3f irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random, float near = 1) const;
 
  private:
   /// The radiance that the contained luminaires send straight along a ray, weighted beside samples of the luminaires;

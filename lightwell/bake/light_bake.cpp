@@ -154,7 +154,13 @@ Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box
   }
   statistics.nodes += best.nodes();
   BakedGrid baked{.grid = best.take()};
-  baked.estimated_error = test.error(baked.grid);
+  // Points that had no say in what was chosen, and that know what is near them without the cache's blur.
+  TestPointOptions judging = testing;
+  judging.seed ^= 0x0dd5;
+  judging.near = 8;
+  judging.rays = 512;
+  LW_TRY(judge, TestPoints::gather(light, judging, progress));
+  baked.estimated_error = judge.error(baked.grid);
   const std::vector<uint8_t>& valid = baked.grid.valid;
   statistics.invalid_nodes += static_cast<size_t>(std::count(valid.begin(), valid.end(), 0));
   return baked;

@@ -107,8 +107,11 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
   // Two sets of rays a point: their difference tells their noise.
   const auto on_surface = [&](Point& point, Random& random) {
     std::tie(point.position, point.normal) = surfaces.sample(random);
-    const Vec3f a = light.irradiance(point.position, point.normal, options.rays / 2, random);
-    point.set(a, light.irradiance(point.position, point.normal, options.rays / 2, random));
+    const auto irradiance = [&] {
+      return light.irradiance(point.position, point.normal, options.rays / 2, random, options.near);
+    };
+    const Vec3f a = irradiance();
+    point.set(a, irradiance());
   };
   const auto in_free_space = [&](Point& point, Random& random) {
     const Vec3f share{{random.uniform(), random.uniform(), random.uniform()}};

@@ -11,6 +11,7 @@ struct TestPointOptions {
   size_t surface_points = 500;
   size_t free_points = 0;
   int rays = 1024;  ///< of a point
+  float near = 1;   ///< cells of the surface cache within which the rays of surface points do not end in it
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };
