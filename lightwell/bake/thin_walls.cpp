@@ -10,8 +10,8 @@ namespace {
 
 /// In a coarser grid two layers would be a large part of all nodes.
 constexpr int least_with_layers = 10;
-constexpr int lines = 24;                            // probe lines along an axis, counted on each of the two others
-constexpr int most_walls = 64;                       // on a line
+constexpr int lines = 24;                              // probe lines along an axis, counted on each of the two others
+constexpr int most_walls = 64;                         // on a line
 constexpr double worth_a_node = 0.05 * lines * lines;  // walls that must gain a node before an axis gets more nodes
 
 /// Where a line enters and leaves a solid, in metres from the region's face; the same at a sheet.
