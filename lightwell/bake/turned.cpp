@@ -2,6 +2,7 @@
 #include "lightwell/bake/turned.h"
 
 #include <algorithm>
+#include <atomic>
 #include <set>
 
 #include "lightwell/bake/mesh_name.h"
@@ -13,6 +14,9 @@ namespace lightwell {
 namespace {
 
 constexpr uint64_t photons = 1 << 16;
+constexpr uint64_t photon_seed = 0x51de5;
+/// Pieces that all threads together may count, 56 bytes each: beyond that fewer threads count.
+constexpr size_t most_counts = 1 << 22;
 /// Fewer hits on the back do not tell enough.
 constexpr uint64_t least_hits = 100;
 /// Of the photons that a back reflects: how many stay, of those behind the walls of a room. A sheet under a sky sends
@@ -58,8 +62,28 @@ bool has_one_side(const TraceScene& scene, uint32_t instance) {
   return !material.double_sided && max_component(material.emission) <= 0 && material.transmission <= 0;
 }
 
+/// The instances with one side whose backs photons meet at all often. Few scenes have any, and the others need not be
+/// taken to pieces.
+std::vector<uint8_t> instances_met_from_behind(const World& world, int threads, Progress& progress) {
+  std::vector<std::atomic<uint32_t>> backs(world.scene().instances.size());
+  parallel_for(
+      photons, 4096, threads,
+      [&](size_t begin, size_t end, int) {
+        for (size_t photon = begin; photon < end; photon++) {
+          Flight flight;
+          for (PhotonWalk walk(world, photon_seed, photon); walk.next(flight);)
+            if (walk.end() && !walk.end()->front) backs[walk.end()->instance].fetch_add(1, std::memory_order_relaxed);
+        }
+      },
+      [&] { return progress.cancelled(); });
+  std::vector<uint8_t> met(backs.size());
+  for (uint32_t i = 0; i < met.size(); i++) met[i] = backs[i] >= least_hits && has_one_side(world.surfaces(), i);
+  return met;
+}
+
 std::vector<Sides> look_at_sides(const World& world, const SurfacePieces& pieces, int threads, Progress& progress) {
-  const size_t count = static_cast<size_t>(threads > 0 ? threads : default_threads());
+  const size_t wanted = static_cast<size_t>(threads > 0 ? threads : default_threads());
+  const size_t count = std::min(wanted, std::max<size_t>(1, most_counts / (1 + pieces.count())));
   std::vector<std::vector<Sides>> seen(count, std::vector<Sides>(pieces.count()));
   parallel_for(
       photons, 4096, static_cast<int>(count),
@@ -68,7 +92,7 @@ std::vector<Sides> look_at_sides(const World& world, const SurfacePieces& pieces
         for (size_t photon = begin; photon < end; photon++) {
           std::optional<size_t> left;  // the piece whose back reflected the photon
           Flight flight;
-          for (PhotonWalk walk(world, 0x51de5, photon); walk.next(flight);) {
+          for (PhotonWalk walk(world, photon_seed, photon); walk.next(flight);) {
             const auto met = walk.end() ? pieces.piece(*walk.end()) : std::nullopt;
             if (left && flight.from_back) {
               (walk.end() ? sides[*left].stay : sides[*left].escape)++;
@@ -175,8 +199,9 @@ class Turner {
 Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int threads, Progress& progress, Report& report) {
   LW_TRY(world, World::build(scene, threads));
   if (world->lights().dark()) return std::move(world);
-  const SurfacePieces pieces(world->surfaces(),
-                             [&](uint32_t instance) { return has_one_side(world->surfaces(), instance); });
+  const std::vector<uint8_t> met = instances_met_from_behind(*world, threads, progress);
+  const SurfacePieces pieces(world->surfaces(), [&](uint32_t instance) { return met[instance] != 0; });
+  if (pieces.count() == 0 && !progress.cancelled()) return std::move(world);
   const std::vector<Sides> sides = look_at_sides(*world, pieces, threads, progress);
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
   Turner turner(scene, pieces, sides);
