@@ -166,13 +166,18 @@ class Turner {
     scene_.materials.push_back(scene_.material_of(primitive));
     scene_.materials.back().double_sided = true;
     primitive.material = static_cast<int>(scene_.materials.size()) - 1;
-    Json& json = scene_.document.json;
     if (primitive.source_mesh < 0) return;
-    Json& source = json["meshes"][static_cast<size_t>(primitive.source_mesh)]["primitives"]
-                       [static_cast<size_t>(primitive.source_primitive)];
-    Json material = source.contains("material") ? json["materials"][source["material"].get<size_t>()] : Json::object();
+    // Looked up anew each time: a new array at the root may move everything in it.
+    const auto source = [&]() -> Json& {
+      return scene_.document.json["meshes"][static_cast<size_t>(primitive.source_mesh)]["primitives"]
+                                 [static_cast<size_t>(primitive.source_primitive)];
+    };
+    Json material = source().contains("material")
+                        ? scene_.document.json["materials"][source()["material"].get<size_t>()]
+                        : Json::object();
     material["doubleSided"] = true;
-    source["material"] = DocumentBuilder(scene_.document).add("materials", std::move(material));
+    const int index = DocumentBuilder(scene_.document).add("materials", std::move(material));
+    source()["material"] = index;
   }
 
   std::string name_of(const Primitive& primitive) const { return mesh_name(scene_, primitive); }
