@@ -33,6 +33,8 @@ void add_walls(const TraceScene& scene, const FreeSpace& space, Ray line, float 
     entered = hit.front ? at : -1;
     travelled = at + scene.offset();
     line.origin += line.direction * (hit.distance + scene.offset());
+    line.far -= hit.distance + scene.offset();
+    if (line.far <= 0) return;
   }
 }
 
@@ -42,7 +44,7 @@ std::vector<Wall> walls_across(const TraceScene& scene, const FreeSpace& space, 
   std::vector<Wall> walls;
   const int side = (axis + 1) % 3, other = (axis + 2) % 3;
   for (int i = 0; i < lines * lines; i++) {
-    Ray line;
+    Ray line{.far = region.size()[axis]};
     line.direction[axis] = 1;
     line.origin = region.lo;
     const int column = i % lines, row = i / lines;
