@@ -40,9 +40,10 @@ void note_sky(Scene& scene, const Vec3f& radiance) {
   object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
 }
 
-// Refuses --up and --unit for packs and built-in scenes, which have their own.
+// Refuses --up, --unit and --scene for packs and built-in scenes, which have their own.
 Result<void> refuse_conventions(const std::string& path, const ImportOptions& asked) {
   const ImportOptions own;
+  if (!asked.scene.empty()) return fail({path, "", "holds one scene; --scene is for files of other programs"});
   if (asked.up == own.up && asked.unit == own.unit) return {};
   return fail({path, "", "is in metres with y up; --up and --unit are for files of other programs"});
 }
