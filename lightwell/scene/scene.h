@@ -109,9 +109,9 @@ struct Scene {
 };
 
 struct ImportOptions {
-  char up = 'y';      ///< the axis of the file that points up: 'y' or 'z'
-  float unit = 1;     ///< length of the file's unit in metres
-  uint64_t seed = 1;  ///< of built-in scenes
+  char up = 'y';           ///< the axis of the file that points up: 'y' or 'z'
+  float unit = 1;          ///< length of the file's unit in metres
+  uint64_t seed = 1;       ///< of built-in scenes
   std::string scene = {};  ///< name or number of the scene in a glTF that is shown; empty: its default one
 };
 
