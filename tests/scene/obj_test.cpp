@@ -153,7 +153,8 @@ TEST_F(ObjTest, LeavesOutPointsAndLinesWithAWarning) {
 }
 
 TEST_F(ObjTest, RefusesFaultsByLine) {
-  for (const std::string text : {"v 0 0\n", "v a b c\n", "v 0 0 nan\n", "vn 1 0\n", "vt\n", "f 0 1 2\n",                                  "f 1//x 2 3\n", "f 1 2 x\n", "f 1/// 2 3\n", "f // 2 3\n"}) {
+  for (const std::string text : {"v 0 0\n", "v a b c\n", "v 0 0 nan\n", "vn 1 0\n", "vt\n", "f 0 1 2\n", "f 1//x 2 3\n",
+                                 "f 1 2 x\n", "f 1/// 2 3\n", "f // 2 3\n"}) {
     const auto scene = read(square + text);
     ASSERT_FALSE(scene) << text;
     EXPECT_EQ(scene.error().element, "line 5") << text;
