@@ -1,28 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 #include "lightwell/base/model_coder.h"
-#include "lightwell/base/power_of_two.h"
 #include "lightwell/light/lattice_stream.h"
+#include "lightwell/light/stream_head.h"
 
 namespace lightwell {
 namespace {
 
-Result<void> check_shape(const LatticeLayout& layout) {
-  const GridShape& shape = layout.shape;
-  for (int a = 0; a < 3; a++) {
-    if (shape.nodes[a] < 2 || shape.nodes[a] > LightLayout::most_nodes_an_axis)
-      return fail("light parameters", "number of nodes out of range");
-    if (!(shape.cell[a] > 0)) return fail("light parameters", "cell is not positive");
-  }
-  if (shape.count() > LatticeLayout::most_nodes) return fail(ErrorKind::limit, "light parameters", "too many nodes");
-  if (!is_finite(shape.lo) || !is_finite(shape.hi())) return fail("light parameters", "place is not finite");
+Result<void> check(const LatticeLayout& layout) {
+  LW_CHECK(check_head(layout.shape, layout.normal_offset, layout.scale));
   if (layout.steps < LatticeSteps::least || layout.steps > LatticeSteps::most ||
       (layout.steps & (layout.steps - 1)) != 0)
     return fail("light parameters", "number of steps is not a power of two from 4 to 256");
-  if (!(std::abs(layout.normal_offset) <= 1)) return fail("light parameters", "normal offset out of range");
-  if (!is_power_of_two(layout.scale) || layout.scale < 0x1p-11f || layout.scale > 0x1p15f)
-    return fail("light parameters", "scale is not a power of two from 2^-11 to 2^15");
   return {};
 }
 
@@ -44,9 +32,7 @@ bool read_corners(LatticeLayout& layout, Bytes bytes) {
 Result<LatticeLayout> LatticeLayout::read(Bytes parameters) {
   ByteReader reader(parameters);
   LatticeLayout layout;
-  for (float& v : layout.shape.lo.e) v = reader.f32();
-  for (float& v : layout.shape.cell.e) v = reader.f32();
-  for (int& n : layout.shape.nodes.e) n = reader.u16();
+  layout.shape = read_shape(reader);
   layout.steps = reader.u16();
   layout.normal_offset = reader.f32();
   layout.scale = reader.f32();
@@ -54,7 +40,7 @@ Result<LatticeLayout> LatticeLayout::read(Bytes parameters) {
   if (!reader.ok() || brick_bytes > reader.remaining()) return fail("light parameters", "wrong length");
   const Bytes bricks = reader.take(brick_bytes);
   const Bytes corners = reader.take(reader.remaining());
-  LW_CHECK(check_shape(layout));
+  LW_CHECK(check(layout));
   layout.tree = BrickTree(layout.shape.cells());
   if (!bricks.empty()) {
     auto tree = BrickTree::read(layout.shape.cells(), bricks, most_bricks);

@@ -4,6 +4,7 @@
 #include "lightwell/base/assert.h"
 #include "lightwell/base/model_coder.h"
 #include "lightwell/light/lattice_stream.h"
+#include "lightwell/light/stream_head.h"
 
 namespace lightwell {
 namespace {
@@ -129,9 +130,7 @@ std::vector<uint8_t> write_corners(const LatticeLayout& layout) {
 }  // namespace
 
 void LatticeLayout::write(ByteWriter& writer) const {
-  for (const float v : shape.lo.e) writer.f32(v);
-  for (const float v : shape.cell.e) writer.f32(v);
-  for (const int n : shape.nodes.e) writer.u16(static_cast<uint16_t>(n));
+  write_shape(writer, shape);
   writer.u16(static_cast<uint16_t>(steps));
   writer.f32(normal_offset);
   writer.f32(scale);

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 #include "lightwell/base/model_coder.h"
-#include "lightwell/base/power_of_two.h"
 #include "lightwell/light/stream.h"
+#include "lightwell/light/stream_head.h"
 
 namespace lightwell {
 Result<LightLayout> LightLayout::read(Bytes parameters) {
   ByteReader reader(parameters);
   LightLayout layout;
-  for (float& v : layout.shape.lo.e) v = reader.f32();
-  for (float& v : layout.shape.cell.e) v = reader.f32();
-  for (int& n : layout.shape.nodes.e) n = reader.u16();
+  layout.shape = read_shape(reader);
   layout.nodes_per_slice = reader.u16();
   layout.normal_offset = reader.f32();
   layout.scale = reader.f32();
@@ -19,19 +15,9 @@ Result<LightLayout> LightLayout::read(Bytes parameters) {
   for (MomentsRecord& corner : layout.corners) corner = MomentsRecord::read(reader);
   if (!reader.ok() || reader.remaining() != 0) return fail("light parameters", "wrong length");
 
-  for (int a = 0; a < 3; a++) {
-    const int n = layout.shape.nodes[a];
-    if (n < 2 || n > most_nodes_an_axis) return fail("light parameters", "number of nodes out of range");
-    if (!(layout.shape.cell[a] > 0)) return fail("light parameters", "cell is not positive");
-  }
-  if (layout.shape.count() > most_nodes) return fail(ErrorKind::limit, "light parameters", "too many nodes");
-  if (!is_finite(layout.shape.lo) || !is_finite(layout.shape.hi()))
-    return fail("light parameters", "place is not finite");
+  LW_CHECK(check_head(layout.shape, layout.normal_offset, layout.scale));
   if (layout.nodes_per_slice < 1 || layout.nodes_per_slice > 1024)
     return fail("light parameters", "nodes of a slice out of range");
-  if (!(std::abs(layout.normal_offset) <= 1)) return fail("light parameters", "normal offset out of range");
-  if (!is_power_of_two(layout.scale)) return fail("light parameters", "scale is not a power of two");
-  if (layout.scale < 0x1p-11f || layout.scale > 0x1p15f) return fail("light parameters", "scale out of range");
   return layout;
 }
 
