@@ -129,16 +129,14 @@ vec3 evaluateLightProbes( vec3 n ) {
 
 }
 
-// Where a grid of Lightwell's with bricks is fetched: the texel in the first sub-volume for a place in cells of the grid and a
-// normal in its axes. The brick is looked for a little in front of the surface, which may lie where two of them meet.
-vec3 texelOfBrick( highp sampler3D probesSH, vec3 place, vec3 offset, vec3 cells, float finest, float firstSlice ) {
+// Where a grid of Lightwell's with bricks is fetched: the texel in the first sub-volume for a place in cells of the grid.
+vec3 texelOfBrick( highp sampler3D probesSH, vec3 place, vec3 cells, float finest, float firstSlice ) {
 
-	float cubesACell = exp2( finest ) / 4.0;
-	vec3 before = clamp( place + offset / exp2( finest ), vec3( 0.0 ), cells - 0.5 / exp2( finest ) );
-	vec4 brick = texelFetch( probesSH, ivec3( before * cubesACell ) + ivec3( 0, 0, 1 ), 0 );
+	vec3 within = clamp( place, vec3( 0.0 ), cells - 0.5 / exp2( finest ) );
+	vec4 brick = texelFetch( probesSH, ivec3( within * exp2( finest ) / 4.0 ) + ivec3( 0, 0, 1 ), 0 );
 	float level = exp2( brick.a );
-	vec3 first = 4.0 * floor( before * level / 4.0 );
-	return brick.rgb + clamp( place * level + offset - first, vec3( 0.0 ), vec3( 4.0 ) ) + vec3( 0.0, 0.0, firstSlice );
+	vec3 first = 4.0 * floor( within * level / 4.0 );
+	return brick.rgb + clamp( place * level - first, vec3( 0.0 ), vec3( 4.0 ) ) + vec3( 0.0, 0.0, firstSlice );
 
 }
 
@@ -164,16 +162,16 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 		lightProbeSample.stretch = sizeOfGrid( probesResolution ) / ( last * header.rgb );
 		lightProbeSample.sky = parts.r > 0.5;
 		normal = directionInGrid( worldNormal );
-		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last;
+		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last + header.a * normal;
 
 		if ( bricks ) {
 
-			texel = texelOfBrick( probesSH, node, header.a * normal, last, parts.g, parts.a );
+			texel = texelOfBrick( probesSH, node, last, parts.g, parts.a );
 			subVolume = parts.b;
 
 		} else {
 
-			texel = clamp( node + header.a * normal, vec3( 0.0 ), last ) + vec3( 0.0, 0.0, 1.0 );
+			texel = clamp( node, vec3( 0.0 ), last ) + vec3( 0.0, 0.0, 1.0 );
 
 		}
 

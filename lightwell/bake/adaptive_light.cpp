@@ -6,6 +6,8 @@
 #include <map>
 
 #include "lightwell/base/parallel.h"
+#include "lightwell/light/lattice_order.h"
+#include "lightwell/light/lattice_stream.h"
 
 namespace lightwell {
 namespace {
@@ -13,15 +15,16 @@ namespace {
 /// Rounds of dividing, each by what the one before has left; and the finest level.
 constexpr int rounds = 6;
 constexpr int finest_level = 3;
-/// Nodes that a brick adds, about.
-constexpr size_t nodes_a_brick = 64;
-
-Vec3i lattice_point(const Brick& brick, int point) { return brick.at * Brick::cells + Brick::local(point); }
+/// What a brick adds to the stream, bytes, until it is known of this grid.
+constexpr size_t likely_brick_bytes = 300;
+/// Sets of rays from a node of a brick: fewer than from the grid's own, since what is left of the noise is told from
+/// what the light does.
+constexpr int sets_a_node = 4;
 
 /// The number of a node's place: its level and its corner there.
 uint64_t key_of(const Brick& brick, int point) {
   uint64_t key = static_cast<uint64_t>(brick.level);
-  for (const int c : lattice_point(brick, point).e) key = key << 20 | static_cast<uint64_t>(c);
+  for (const int c : brick.corner(point).e) key = key << 20 | static_cast<uint64_t>(c);
   return key;
 }
 
@@ -38,6 +41,77 @@ std::optional<Brick> dividing(const BrickTree& tree, const Vec3f& place) {
   return brick;
 }
 
+/// Takes the noise of a node for what it is: it is moved towards the mean of those beside it between which it lies, all
+/// the way where it differs by less than the noise of both, little where it differs by much more (the shrinkage of
+/// wavelet coefficients: Donoho and Johnstone, Adapting to Unknown Smoothness, JASA 1995, in the form of James and
+/// Stein).
+class Quietened {
+ public:
+  void add_beside(const Moments& moments) {
+    sum_ += moments;
+    count_++;
+  }
+  /// `noise` as in NodeSurroundings.
+  Moments of(const Moments& moments, float noise) const {
+    if (count_ == 0) return moments;
+    Moments difference = sum_ * (1 / static_cast<float>(count_));
+    difference += moments * -1;
+    const float size = size_of(difference), own = noise * size_of(moments);
+    if (!(size > 0)) return moments;
+    difference = difference * std::min(1.0f, 2 * own * own / (size * size));
+    difference += moments;
+    return difference;
+  }
+
+ private:
+  Moments sum_;
+  int count_ = 0;
+};
+
+/// Quietens the grid's own valid nodes, from coarse to fine.
+void quieten(LightGrid& grid, const std::vector<float>& noise) {
+  if (noise.empty()) return;
+  for (const LatticeNode& place : lattice_order(grid.shape.nodes)) {
+    if (!grid.valid[place.node]) continue;
+    Quietened quietened;
+    for (size_t i = 0; i < place.parent_count; i++)
+      if (grid.valid[place.parents[i]]) quietened.add_beside(grid.moments[place.parents[i]]);
+    grid.moments[place.node] = quietened.of(grid.moments[place.node], noise[place.node]);
+  }
+}
+
+using PointNoise = std::array<float, Brick::points>;
+
+/// The same for the finer points of a brick.
+void quieten(BrickPoints& points, const PointNoise& noise, const std::vector<int>& finer) {
+  for (const int point : finer) {
+    BrickPoint& light = points[static_cast<size_t>(point)];
+    if (light.weight <= node_weight(false)) continue;
+    const Vec3i local = Brick::local(point);
+    Quietened quietened;
+    for (int axis = 0; axis < 3; axis++) {
+      if (local[axis] % 2 == 0) continue;
+      for (const int step : {-1, 1}) {
+        Vec3i place = local;
+        place[axis] += step;
+        const BrickPoint& beside = points[static_cast<size_t>(Brick::point(place))];
+        if (beside.weight > node_weight(false)) quietened.add_beside(beside.moments);
+      }
+    }
+    light.moments = quietened.of(light.moments, noise[static_cast<size_t>(point)]);
+  }
+}
+
+size_t stream_bytes(const LightGrid& grid) {
+  const auto stream = encode_lattice(grid);
+  if (!stream) return std::numeric_limits<size_t>::max();
+  ByteWriter parameters;
+  stream->layout.write(parameters);
+  size_t bytes = parameters.size();
+  for (const LightBundle& bundle : stream->bundles) bytes += bundle.payload.size();
+  return bytes;
+}
+
 }  // namespace
 
 LightGrid AdaptiveLight::grid(float most_insides) const {
@@ -48,48 +122,53 @@ LightGrid AdaptiveLight::grid(float most_insides) const {
     grid.valid.push_back(nodes_.insides[node] <= most_insides);
     if (!grid.valid.back()) grid.moments[node] = {};
   }
+  quieten(grid, nodes_.noise);
   fill_invalid(grid);
   grid.tree = tree_;
   grid.bricks.resize(tree_.bricks().size());
+  const std::vector<int> finer = finer_points();
   for (uint32_t brick = 0; brick < grid.bricks.size(); brick++) {
     BrickPoints nodes;
-    for (const int point : finer_points()) {
+    PointNoise noise{};
+    for (const int point : finer) {
+      if (brick_nodes_.at(brick, point) == BrickNodes::none) continue;
       const Node& node = gathered_.at(key_of(tree_.bricks()[brick], point));
       const bool valid = node.insides <= most_insides;
       nodes[static_cast<size_t>(point)] = {valid ? node.moments : Moments{}, node_weight(valid)};
+      noise[static_cast<size_t>(point)] = node.noise;
     }
     place_brick(grid, brick, nodes);
+    quieten(grid.bricks[brick], noise, finer);
     fill_invalid(grid.bricks[brick], shape_.cell);
   }
   return grid;
 }
 
-Result<bool> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& progress) {
+Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& progress) {
   for (const Brick& brick : bricks) tree_.add(brick);
-  const BrickNodes nodes(tree_);
+  brick_nodes_ = BrickNodes(tree_);
   std::vector<BrickNode> missing;
-  for (const BrickNode& node : nodes.nodes())
+  for (const BrickNode& node : brick_nodes_.nodes())
     if (!gathered_.contains(key_of(tree_.bricks()[node.brick], node.point))) missing.push_back(node);
-  std::vector<GatheredLight::Surroundings> found(missing.size());
+  std::vector<NodeSurroundings> found(missing.size());
   parallel_for(
-      missing.size(), 16, options_.threads,
+      missing.size(), 16, threads_,
       [&](size_t begin, size_t end, int) {
         for (size_t i = begin; i < end; i++) {
           const Brick& brick = tree_.bricks()[missing[i].brick];
           const Vec3f cell = shape_.cell * std::ldexp(1.0f, -brick.level);
-          const Vec3f position = shape_.lo + cell * lattice_point(brick, missing[i].point).cast<float>();
-          Random random(options_.seed, key_of(brick, missing[i].point));
-          found[i] = light_.at_node(position, cell, random);
+          const Vec3f position = shape_.lo + cell * brick.corner(missing[i].point).cast<float>();
+          found[i] = light_.at_node(position, cell, sets_a_node);
         }
       },
       [&] { return progress.cancelled(); });
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
   for (size_t i = 0; i < missing.size(); i++) {
-    gathered_[key_of(tree_.bricks()[missing[i].brick], missing[i].point)] = {found[i].moments, found[i].insides};
+    gathered_[key_of(tree_.bricks()[missing[i].brick], missing[i].point)] = {found[i].moments, found[i].insides,
+                                                                             found[i].noise};
     nodes_.rays += found[i].rays;
   }
-  brick_nodes_ = nodes.nodes().size();
-  return !missing.empty();
+  return {};
 }
 
 /// The bricks that could be added where the grid errs most, summed over the points in each.
@@ -115,22 +194,50 @@ std::vector<Brick> AdaptiveLight::worst_bricks(const TestPoints& points, const L
   return bricks;
 }
 
-Result<void> AdaptiveLight::refine(const TestPoints& points, const RefinementOptions& options, Progress& progress) {
-  const size_t coarse = count();
-  const size_t addable = options.most_nodes - std::min(coarse, options.most_nodes);
-  progress.stage("finer light", static_cast<double>(options.most_nodes), "nodes");
+/// Takes back the newest bricks until the stream is no longer than it may be.
+void AdaptiveLight::keep_within(const RefinementOptions& options) {
+  for (;;) {
+    const size_t bytes = stream_bytes(grid(options.most_insides)), bricks = tree_.bricks().size();
+    if (bytes <= options.most_bytes || bricks == 0) return;
+    const size_t too_many = 1 + bricks * (bytes - options.most_bytes) / bytes;
+    BrickTree fewer(tree_.cells());
+    for (const Brick& brick : tree_.bricks().first(bricks - std::min(bricks, too_many))) fewer.add(brick);
+    tree_ = std::move(fewer);
+    brick_nodes_ = BrickNodes(tree_);
+  }
+}
+
+Result<Refinement> AdaptiveLight::refine(const TestPoints& points, const RefinementOptions& options,
+                                         Progress& progress) {
+  const size_t coarse = stream_bytes(grid(options.most_insides));
+  const size_t addable = options.most_bytes - std::min(coarse, options.most_bytes);
+  progress.stage("finer light", static_cast<double>(options.most_bytes), "bytes");
+  Refinement end = Refinement::to_budget;
   for (int round = 1; round <= rounds; round++) {
     LightGrid grid = this->grid(options.most_insides);
-    grid.normal_offset = options.normal_offset;
-    if (points.mean_error(grid) <= options.target_error) break;
+    grid.normal_offset = points.best_offset(grid);
+    if (points.error(grid) <= options.target_error) {
+      end = Refinement::to_target;
+      break;
+    }
+    if (std::chrono::steady_clock::now() >= options.deadline) {
+      end = Refinement::to_deadline;
+      break;
+    }
+    const size_t bytes = stream_bytes(grid), bricks = tree_.bricks().size();
     const size_t allowed = coarse + addable * static_cast<size_t>(round) / rounds;
-    if (allowed <= count()) continue;
-    const size_t bricks = (allowed - count() + nodes_a_brick - 1) / nodes_a_brick;
-    LW_TRY(any, divide(worst_bricks(points, grid, bricks), progress));
-    if (!any) break;
-    progress.advance(static_cast<double>(count()));
+    progress.advance(static_cast<double>(bytes));
+    if (allowed <= bytes) continue;
+    const size_t brick_bytes = bricks > 0 ? std::max<size_t>(1, (bytes - coarse) / bricks) : likely_brick_bytes;
+    const std::vector<Brick> worst = worst_bricks(points, grid, (allowed - bytes + brick_bytes - 1) / brick_bytes);
+    if (worst.empty()) {
+      end = Refinement::to_finest;
+      break;
+    }
+    LW_CHECK(divide(worst, progress));
   }
-  return {};
+  keep_within(options);
+  return end;
 }
 
 }  // namespace lightwell

@@ -11,6 +11,8 @@
 
 namespace lightwell {
 
+class NodeJournal;
+
 /// What is known of a scene before its light is estimated.
 struct BakeScene {
   const World& world;
@@ -31,6 +33,7 @@ class PartialLight {
 /// The light at the nodes of a grid.
 struct NodeLight {
   std::vector<Moments> moments;  ///< W/m2
+  std::vector<float> noise;      ///< of the moments, a share of them; empty when unknown
   std::vector<float> insides;    ///< share of a node's surroundings that is inside of solids; 1: it stands in one
   uint64_t rays = 0;             ///< that it took
 };
@@ -63,6 +66,8 @@ struct EstimatorOptions {
   /// The luminaires whose direct light goes into the grid as well.
   LuminaireSet contained;
   int threads = 0;  ///< 0: all processors
+  /// Of what was gathered before this run, if any.
+  NodeJournal* journal = nullptr;
 };
 
 /// A row of the table of estimators. A new estimator is a new file and a row.

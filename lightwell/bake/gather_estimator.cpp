@@ -8,39 +8,40 @@ namespace {
 
 /// Nodes that are finished; the others are zero, so that sums are exact.
 struct FinishedNodes : public PartialLight {
-  explicit FinishedNodes(size_t count) : moments(count), insides(count) {}
+  explicit FinishedNodes(size_t count) : moments(count), noise(count), insides(count) {}
 
   void add(const PartialLight& other) override {
     const auto& more = static_cast<const FinishedNodes&>(other);
     for (size_t i = 0; i < moments.size(); i++) {
       moments[i] += more.moments[i];
+      noise[i] += more.noise[i];
       insides[i] += more.insides[i];
     }
     rays += more.rays;
   }
 
   std::vector<Moments> moments;
-  std::vector<float> insides;
+  std::vector<float> noise, insides;
   uint64_t rays = 0;
 };
 
 class GatherEstimator : public Estimator {
  public:
   GatherEstimator(const BakeScene& scene, const GridShape& shape, const EstimatorOptions& options)
-      : shape_(shape), options_(options), light_(scene.world, scene.space, scene.cache, options.contained, scene.box) {}
+      : shape_(shape), light_(scene, options) {}
 
   uint64_t samples() const override { return shape_.count(); }
   std::string_view unit() const override { return "nodes"; }
   size_t samples_at_a_time() const override { return 16; }
   std::unique_ptr<PartialLight> nothing() const override { return std::make_unique<FinishedNodes>(shape_.count()); }
-  size_t partial_bytes() const override { return shape_.count() * (sizeof(Moments) + sizeof(float)); }
+  size_t partial_bytes() const override { return shape_.count() * (sizeof(Moments) + 2 * sizeof(float)); }
 
   void add(uint64_t begin, uint64_t end, PartialLight& sum) const override {
     auto& nodes = static_cast<FinishedNodes&>(sum);
     for (uint64_t node = begin; node < end; node++) {
-      Random random(options_.seed, node);
-      const auto found = light_.at_node(shape_.position(shape_.node(node)), shape_.cell, random);
+      const auto found = light_.at_node(shape_.position(shape_.node(node)), shape_.cell);
       nodes.moments[node] = found.moments;
+      nodes.noise[node] = found.noise;
       nodes.insides[node] = found.insides;
       nodes.rays += found.rays;
     }
@@ -48,12 +49,11 @@ class GatherEstimator : public Estimator {
 
   NodeLight finish(const PartialLight& whole) const override {
     const auto& nodes = static_cast<const FinishedNodes&>(whole);
-    return {nodes.moments, nodes.insides, nodes.rays};
+    return {nodes.moments, nodes.noise, nodes.insides, nodes.rays};
   }
 
  private:
   const GridShape shape_;
-  const EstimatorOptions& options_;
   const GatheredLight light_;
 };
 

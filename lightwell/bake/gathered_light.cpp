@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/gathered_light.h"
 
+#include "lightwell/bake/node_journal.h"
 #include "lightwell/bake/sheets.h"
 
 namespace lightwell {
@@ -9,9 +10,8 @@ namespace {
 /// Samples of the contained luminaires at a place; rays alone find only large ones.
 constexpr int luminaire_samples = 64;
 
-/// Sets of rays from a node at most, and the noise above which another one is taken.
-constexpr int most_sets = 4;
-constexpr float most_noise = 0.04f;
+/// The noise above which another set of rays is taken.
+constexpr float most_noise = 0.015f;
 /// Nodes that see more insides are hardly looked up: one set does.
 constexpr float seldom_insides = 0.5f;
 
@@ -28,24 +28,26 @@ void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
   moments.m[8] += mixed(1, 2);
 }
 
-/// The sum of the sizes of E in all directions and colours.
-float size_of(const Moments& moments) {
-  float sum = 0;
-  for (size_t d = 0; d < 6; d++)
-    for (int c = 0; c < 3; c++) sum += std::abs(moments.m[d][c]);
-  return sum;
-}
-
 }  // namespace
 
-GatheredLight::GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache,
-                             const LuminaireSet& contained, const Box3f& box)
-    : world_(world), space_(space), cache_(cache), contained_(contained), box_(box) {
+GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& options)
+    : world_(scene.world),
+      space_(scene.space),
+      cache_(scene.cache),
+      contained_(options.contained),
+      box_(scene.box),
+      seed_(options.seed),
+      journal_(options.journal) {
   // A thousandth of what all light would be if the box's walls took it up, in the 18 numbers of size_of().
   constexpr float negligible = 1e-3f;
-  const Vec3f s = box.size();
+  const Vec3f s = world_.surfaces().bounds().size();
   const float area = 2 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
-  dark_ = area > 0 ? 18 * negligible * mean_of_channels(world.lights().power()) / area : 0;
+  dark_ = area > 0 ? 18 * negligible * mean_of_channels(world_.lights().power()) / area : 0;
+  if (journal_ == nullptr) return;
+  // The light of the surfaces tells apart scenes, lamps, materials and seeds.
+  inputs_ = cache_.fingerprint(seed_);
+  for (size_t i = 0; i < world_.lights().luminaires().size(); i++)
+    inputs_ = inputs_ * 31 + contained_.contains(static_cast<int>(i));
 }
 
 Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell) {
@@ -59,8 +61,8 @@ Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell) {
   return position;
 }
 
-GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random& random, int rays) const {
-  Surroundings found;
+NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, int rays) const {
+  NodeSurroundings found;
   const float shift = random.uniform(), turn = random.uniform();
   const float solid_angle = 4 * pi / static_cast<float>(rays);
   int insides = 0;
@@ -74,7 +76,7 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random&
   for (int i = 0; i < rays; i++) {
     const Vec3f direction = sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
     const Gathering gathering = gather(world_, {position, direction}, cache_.near(), random);
-    found.rays += static_cast<uint64_t>(gathering.rays);
+    found.rays += static_cast<uint32_t>(gathering.rays);
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
     const Vec3f radiance = cache_.reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
     add(direction, radiance * solid_angle);
@@ -89,12 +91,13 @@ GatheredLight::Surroundings GatheredLight::around(const Vec3f& position, Random&
   return found;
 }
 
-GatheredLight::Surroundings GatheredLight::without_much_noise(const Vec3f& position, Random& random) const {
-  Surroundings sum = around(position, random);
+NodeSurroundings GatheredLight::without_much_noise(const Vec3f& position, int most_sets, Random& random) const {
+  NodeSurroundings sum = around(position, random);
   int sets = 1;
   const bool matters = sum.insides < seldom_insides && size_of(sum.moments) > dark_;
-  for (float noise = sum.noise; matters && sets < most_sets && noise > most_noise; sets++) {
-    const Surroundings more = around(position, random);
+  float noise = sum.noise;
+  for (; matters && sets < most_sets && noise > most_noise; sets++) {
+    const NodeSurroundings more = around(position, random);
     sum.moments += more.moments;
     sum.insides += more.insides;
     sum.noise += more.noise;
@@ -104,12 +107,22 @@ GatheredLight::Surroundings GatheredLight::without_much_noise(const Vec3f& posit
   const float share = 1 / static_cast<float>(sets);
   sum.moments = sum.moments * share;
   sum.insides *= share;
+  sum.noise = noise;
   return sum;
 }
 
-GatheredLight::Surroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, Random& random) const {
+NodeSurroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, int most_sets) const {
+  const uint64_t key = NodeJournal::key(inputs_, node, cell);
+  if (const auto known = journal_ != nullptr ? journal_->find(key) : std::nullopt) return *known;
+  Random random(seed_, NodeJournal::key(0, node, cell));
+  const NodeSurroundings found = gather_node(node, cell, most_sets, random);
+  if (journal_ != nullptr) journal_->add(key, found);
+  return found;
+}
+
+NodeSurroundings GatheredLight::gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const {
   const Vec3f position = viewpoint(box_, node, cell);
-  Surroundings found = without_much_noise(position, random);
+  NodeSurroundings found = without_much_noise(position, most_sets, random);
   for (int axis = 0; axis < 3; axis++) {
     // What lies behind the outermost surfaces is seen by none unless a sky lights it.
     if (position[axis] != node[axis] && world_.lights().environment().black()) continue;
@@ -120,8 +133,8 @@ GatheredLight::Surroundings GatheredLight::at_node(const Vec3f& node, const Vec3
     direction[d / 2] = d % 2 == 0 ? 1.0f : -1.0f;
     const auto beyond = facing_surface(position, direction, close_by * cell[d / 2], random);
     if (!beyond) continue;
-    found.moments.m[static_cast<size_t>(d)] = irradiance(*beyond, direction, rays_a_node / 2, random);
-    found.rays += rays_a_node / 2;
+    found.moments.m[static_cast<size_t>(d)] = irradiance(*beyond, direction, 2 * rays_a_node, random);
+    found.rays += 2 * rays_a_node;
   }
   return found;
 }
@@ -177,10 +190,10 @@ Vec3f GatheredLight::emitted(const Vec3f& position, const Vec3f& direction, cons
 
 /// Calls add(arrival) for the samples whose light arrives; gives the number of rays.
 template <typename Add>
-uint64_t GatheredLight::sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random,
+uint32_t GatheredLight::sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random,
                                           const Add& add) const {
   if (contained_ == LuminaireSet()) return 0;
-  uint64_t rays = 0;
+  uint32_t rays = 0;
   for (int i = 0; i < luminaire_samples; i++) {
     Arrival arrival = world_.lights().sample(position, random);
     if (!contained_.contains(arrival.luminaire) || max_component(arrival.radiance) <= 0) continue;

@@ -3,10 +3,8 @@
 
 #include <optional>
 
-#include "lightwell/bake/free_space.h"
-#include "lightwell/light/grid.h"
-#include "lightwell/trace/luminaire.h"
-#include "lightwell/trace/surface_cache.h"
+#include "lightwell/bake/estimator.h"
+#include "lightwell/bake/node_surroundings.h"
 
 namespace lightwell {
 
@@ -14,51 +12,49 @@ namespace lightwell {
 /// light of the luminaires that a grid contains. Threads may share it.
 class GatheredLight {
  public:
-  /// `box`: of the part of the scene that is baked. All other arguments must outlive this.
-  GatheredLight(const World& world, const FreeSpace& space, const SurfaceCache& cache, const LuminaireSet& contained,
-                const Box3f& box);
+  /// What the scene and the options refer to must outlive this.
+  GatheredLight(const BakeScene& scene, const EstimatorOptions& options);
 
   const World& world() const { return world_; }
   const Box3f& box() const { return box_; }
 
-  /// What rays in all directions find.
-  struct Surroundings {
-    Moments moments;    ///< W/m2
-    float insides = 0;  ///< share of the rays that met the inside of a solid
-    float noise = 0;    ///< of the moments, as a share of them: half of the rays against the other half
-    uint64_t rays = 0;
-  };
   /// The light of a node: what is around its viewpoint(). But where it lies close behind a surface that has one side, E
   /// of the direction in which that faces is what arrives there: lookups in front of it reach back to the node. One
-  /// that lies on a sheet is all insides.
-  Surroundings at_node(const Vec3f& node, const Vec3f& cell, Random& random) const;
+  /// that lies on a sheet is all insides. What the options' journal knows is taken from there. The same whenever and by
+  /// whichever thread it is asked for.
+  NodeSurroundings at_node(const Vec3f& node, const Vec3f& cell, int most_sets = 16) const;
 
-  /// Rays from a node, and as many again up to four times where they leave much noise: in a room they leave 1.4 %
-  /// (docs/light.md section 3: evenly spread, 64 leave 4 %).
+  /// A set of rays from a node. As many again are taken up to `most_sets` times where they leave much noise, which
+  /// shows as blotches on flat walls: in a room they leave 1.4 % (docs/light.md section 3: evenly spread, 64 leave 4
+  /// %).
   static constexpr int rays_a_node = 256;
-  Surroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
+  NodeSurroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
 
   /// The irradiance of a surface, W/m2. Rays that end within so many cells of the surface cache are followed on: see
   /// gather().
   Vec3f irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random, float near = 1) const;
 
  private:
+  NodeSurroundings gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const;
   /// The radiance that the contained luminaires send straight along a ray, weighted beside samples of the luminaires;
   /// `density` is that of the rays, 1/sr.
   Vec3f emitted(const Vec3f& position, const Vec3f& direction, const Gathering& gathering, float density) const;
   /// A point of the last surface on the way, within `reach`, that faces along it, when only backs are met before;
   /// nothing when there is none.
   std::optional<Vec3f> facing_surface(const Vec3f& position, const Vec3f& direction, float reach, Random& random) const;
-  Surroundings without_much_noise(const Vec3f& position, Random& random) const;
+  NodeSurroundings without_much_noise(const Vec3f& position, int most_sets, Random& random) const;
   template <typename Add>
-  uint64_t sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random, const Add& add) const;
+  uint32_t sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random, const Add& add) const;
 
   const World& world_;
   const FreeSpace& space_;
   const SurfaceCache& cache_;
-  const LuminaireSet& contained_;
+  const LuminaireSet contained_;
   const Box3f box_;
-  float dark_ = 0;  // of what size_of() moments is, W/m2: less is not worth more rays
+  const uint64_t seed_;
+  NodeJournal* const journal_;
+  uint64_t inputs_ = 0;  // tells apart what the light depends on
+  float dark_ = 0;       // of what size_of() moments is, W/m2: less is not worth more rays
 };
 
 /// Where the light of a node is looked for. A node on a face of the box of what is baked, where walls stand, is moved

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <optional>
+#include <cmath>
 
-#include "lightwell/bake/adaptive_light.h"
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/bake/light_error.h"
 #include "lightwell/bake/thin_walls.h"
@@ -20,8 +19,34 @@ namespace {
 /// The memory that the threads' sums may take together, bytes; where it does not suffice, fewer threads add up.
 constexpr size_t sums_limit = size_t(768) << 20;
 
-/// Nodes on the longest axis of a grid that is to be divided.
-constexpr int coarse_nodes = 17;
+/// Nodes on the longest axis of a grid that is to be divided; of a draft, and where there is little room.
+constexpr int coarse_nodes = 17, coarsest_nodes = 9;
+constexpr size_t little_room = 25'000;  // bytes
+/// Of the bytes, for what lies around the focus.
+constexpr size_t share_of_surroundings = 8;
+
+using Clock = std::chrono::steady_clock;
+
+/// What one grid may take.
+struct Effort {
+  int nodes = 0;  ///< on the longest axis, before it is divided
+  bool adaptive = false;
+  size_t most_bytes = 0;
+  bool draft = false;  ///< tested by fewer rays
+  Clock::time_point deadline = Clock::time_point::max();
+};
+
+Effort effort_of(const LightBakeOptions& options, Clock::time_point start, bool surroundings) {
+  if (options.nodes > 0) return {.nodes = options.nodes};
+  Effort effort{.nodes = coarse_nodes, .adaptive = true, .most_bytes = options.most_bytes};
+  if (surroundings) effort.most_bytes /= share_of_surroundings;
+  effort.draft = options.draft;
+  if (effort.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
+  if (std::isfinite(options.seconds))
+    effort.deadline =
+        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+  return effort;
+}
 
 /// Gives a grid an even number of cells on each axis, as bricks need.
 void make_divisible(GridShape& shape) {
@@ -32,15 +57,15 @@ void make_divisible(GridShape& shape) {
   }
 }
 
-/// `longest` as LightBakeOptions::nodes.
-Result<std::vector<GridShape>> place_nodes(const World& world, const FreeSpace& space, const Box3f& box, int longest) {
-  std::vector<GridShape> shapes = possible_grids(world, space, box, longest == 0 ? coarse_nodes : longest);
-  if (longest == 0) std::for_each(shapes.begin(), shapes.end(), make_divisible);
+Result<std::vector<GridShape>> place_nodes(const World& world, const FreeSpace& space, const Box3f& box,
+                                           const Effort& effort) {
+  std::vector<GridShape> shapes = possible_grids(world, space, box, effort.nodes);
+  if (effort.adaptive) std::for_each(shapes.begin(), shapes.end(), make_divisible);
   size_t most = 0;
   for (const GridShape& shape : shapes) most = std::max(most, shape.count());
   if (most <= LightLayout::most_nodes) return shapes;
   return fail(ErrorKind::limit, "grid",
-              std::to_string(longest) + " nodes on the longest axis are " + std::to_string(most) +
+              std::to_string(effort.nodes) + " nodes on the longest axis are " + std::to_string(most) +
                   " in all, a pack holds " + std::to_string(LightLayout::most_nodes));
 }
 
@@ -106,7 +131,6 @@ class BestGrid {
   }
 
   float most_insides() const { return most_insides_; }
-  float normal_offset() const { return grid_.normal_offset; }
   size_t nodes() const { return nodes_; }
   LightGrid take() { return std::move(grid_); }
 
@@ -119,36 +143,39 @@ class BestGrid {
 
 /// Bakes one grid over a box; adds to the statistics.
 Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box3f& box,
-                           const LightBakeOptions& options, Progress& progress, LightBakeStatistics& statistics) {
+                           const LightBakeOptions& options, const Effort& effort, Progress& progress,
+                           LightBakeStatistics& statistics) {
   const EstimatorOptions& estimator = options.estimator;
-  const bool adaptive = options.nodes == 0;
-  LW_TRY(shapes, place_nodes(world, space, box, options.nodes));
-  const float cell = max_component(shapes.front().cell) / static_cast<float>(adaptive ? 6 : 3);
+  LW_TRY(shapes, place_nodes(world, space, box, effort));
+  const float cell = max_component(shapes.front().cell) / static_cast<float>(effort.adaptive ? 6 : 3);
   LW_TRY(cache, light_surfaces(world, box, shapes.front(), cell, estimator, progress));
-  const GatheredLight light(world, space, cache, estimator.contained, box);
-  const TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
+  const BakeScene scene{world, space, cache, box};
+  const GatheredLight light(scene, estimator);
+  TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
+  if (effort.draft) testing.rays /= 4;
   LW_TRY(test, TestPoints::gather(light, testing, progress));
 
   statistics.rays += cache.rays();
   BestGrid best(test);
   std::optional<AdaptiveLight> chosen;
   for (const GridShape& shape : shapes) {
-    LW_TRY(nodes, light_nodes({world, space, cache, box}, shape, options, progress));
+    LW_TRY(nodes, light_nodes(scene, shape, options, progress));
     statistics.rays += nodes.rays;
-    AdaptiveLight candidate(light, shape, std::move(nodes), estimator);
+    AdaptiveLight candidate(light, shape, std::move(nodes), estimator.threads);
     if (best.consider(candidate)) chosen.emplace(std::move(candidate));
   }
-  if (adaptive) {
+  if (effort.adaptive) {
     // Points of their own: what the grid was fitted to would tell nothing of its error.
-    const TestPointOptions fitting{.surface_points = 4000,
-                                   .free_points = 1000,
-                                   .rays = 256,
-                                   .seed = testing.seed ^ 0xb71c,
-                                   .threads = estimator.threads};
+    TestPointOptions fitting = testing;
+    fitting.surface_points = 4000;
+    fitting.free_points = 1000;
+    fitting.rays /= 4;
+    fitting.seed ^= 0xb71c;
     LW_TRY(fit, TestPoints::gather(light, fitting, progress));
     const uint64_t before = chosen->rays();
-    LW_CHECK(chosen->refine(fit, {options.target_error, options.most_nodes, best.most_insides(), best.normal_offset()},
-                            progress));
+    const RefinementOptions refinement{options.target_error, effort.most_bytes, best.most_insides(), effort.deadline};
+    LW_TRY(end, chosen->refine(fit, refinement, progress));
+    if (!statistics.refinement) statistics.refinement = end;
     statistics.rays += chosen->rays() - before;
     best.consider(*chosen);
   }
@@ -158,7 +185,7 @@ Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box
   TestPointOptions judging = testing;
   judging.seed ^= 0x0dd5;
   judging.near = 8;
-  judging.rays = 512;
+  judging.rays /= 2;
   LW_TRY(judge, TestPoints::gather(light, judging, progress));
   baked.estimated_error = judge.error(baked.grid);
   const std::vector<uint8_t>& valid = baked.grid.valid;
@@ -182,7 +209,7 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
                 "nothing shines: the scene has no emissive material, no lamp and no environment; "
                 "--environment 1,1,1 lights it from all around");
   }
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
   if (options.nodes == 0 && !options.method->node_by_node)
     return fail(ErrorKind::unsupported, "grid",
                 "--method " + std::string(options.method->name) + " fills regular grids only: give --grid N");
@@ -195,12 +222,13 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
   std::vector<BakedGrid> grids;
   for (const Box3f& box : boxes) {
-    LW_TRY(baked, bake_box(world, space, box, options, progress, statistics));
+    const Effort effort = effort_of(options, start, !grids.empty());
+    LW_TRY(baked, bake_box(world, space, box, options, effort, progress, statistics));
     baked.priority = static_cast<int>(boxes.size() - 1 - grids.size());
     grids.push_back(std::move(baked));
   }
   statistics.estimated_error = grids.front().estimated_error;
-  statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  statistics.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return grids;
 }
 

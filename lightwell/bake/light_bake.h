@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+#include <optional>
+
+#include "lightwell/bake/adaptive_light.h"
 #include "lightwell/bake/estimator.h"
 #include "lightwell/base/progress.h"
 #include "lightwell/light/light_field.h"
@@ -10,11 +14,14 @@ namespace lightwell {
 struct LightBakeOptions {
   /// On the longest axis of a regular grid, at least 2; 0 for an adaptive grid, with bricks where the light changes
   /// quickly, which takes a method that goes node by node.
-  int nodes = 32;
-  /// Of an adaptive grid: the mean error below which it is not divided further, a share of the mean irradiance, and
-  /// about how many nodes it may have.
-  float target_error = 0.005f;
-  size_t most_nodes = 20'000;
+  int nodes = 0;
+  /// Of an adaptive grid: the root mean square error below which it is not divided further, a share of the mean
+  /// irradiance; how long its stream may get, in bytes (the coarsest grid's own bytes are the least); and when it is
+  /// not divided further, in seconds. A draft begins coarser and is tested by fewer rays.
+  float target_error = 0.01f;
+  size_t most_bytes = 128 * 1024;
+  double seconds = std::numeric_limits<double>::infinity();
+  bool draft = false;
   const EstimatorKind* method = &estimators().front();
   EstimatorOptions estimator;
 };
@@ -37,13 +44,15 @@ struct LightBakeStatistics {
   size_t nodes = 0;
   size_t invalid_nodes = 0;
   float estimated_error = 0;  ///< of the first grid
+  /// Why the first grid was divided no further; nothing of a regular one.
+  std::optional<Refinement> refinement;
 };
 
 /// Bakes the light of a world: into a grid over its focus, and where that is not all of the world into another one over
 /// all of it, of lower priority. Each bake places the nodes, determines the free space, and lets an estimator fill in
-/// the light. The same world and options give the same grids for any number of threads. Fails when nothing shines, when
-/// the method cannot fill an adaptive grid, when a grid has more nodes than a pack can hold, or when `progress` is
-/// cancelled.
+/// the light. The same world and options give the same grids for any number of threads, unless the seconds end it.
+/// Fails when nothing shines, when the method cannot fill an adaptive grid, when a grid has more nodes than a pack can
+/// hold, or when `progress` is cancelled.
 Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                                           LightBakeStatistics& statistics);
 

@@ -172,14 +172,15 @@ float TestPoints::mean_error(const LightGrid& grid) const {
 }
 
 float TestPoints::best_offset(LightGrid grid) const {
-  constexpr std::array offsets{0.25f, 0.15f, 0.35f, 0.5f};
-  float best = offsets.front(), least = std::numeric_limits<float>::infinity();
-  for (const float offset : offsets) {
-    grid.normal_offset = offset;
-    const float found = mean_error(grid);
-    if (!(found < least)) continue;
-    least = found;
-    best = offset;
+  float best = 0, least = std::numeric_limits<float>::infinity();
+  for (int level = 0; level <= grid.tree.levels(); level++) {
+    for (const float cells : {0.25f, 0.15f, 0.35f, 0.5f}) {
+      grid.normal_offset = std::ldexp(cells, -level);
+      const float found = mean_error(grid);
+      if (!(found < least)) continue;
+      least = found;
+      best = grid.normal_offset;
+    }
   }
   return best;
 }

@@ -39,8 +39,8 @@ class TestPoints {
   /// The mean difference, of any sign, as a share of the mean irradiance: the few points of narrow gaps, which a root
   /// mean square is made of, do not rule it.
   float mean_error(const LightGrid& grid) const;
-  /// Of a few normal offsets the one with which the grid errs least: small where nodes stand well, larger where walls
-  /// are thinner than a cell.
+  /// Of a few normal offsets, in cells of each level, the one with which the grid errs least: small where nodes stand
+  /// well, larger where walls are thinner than a cell.
   float best_offset(LightGrid grid) const;
 
  private:

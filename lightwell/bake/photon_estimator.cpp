@@ -57,7 +57,7 @@ class PhotonEstimator : public Estimator {
     const NodeSpace space = measure_node_space(world_.surfaces(), space_, shape_, ~options_.seed, options_.threads);
     const auto& sums = static_cast<const PhotonSums<Sums>&>(whole);
     const float flux = reference_flux_ / static_cast<float>(options_.photons);
-    NodeLight light{sums.left.moments(flux, space.free_share), {}, sums.flights};
+    NodeLight light{sums.left.moments(flux, space.free_share), {}, {}, sums.flights};
     for (size_t node = 0; node < shape_.count(); node++)
       light.insides.push_back(space.valid[node] ? 1 - space.free_share[node] : 1.0f);
     return light;

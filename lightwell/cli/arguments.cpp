@@ -14,17 +14,18 @@ namespace {
 
 constexpr NumberRange unit_range = {1e-9, 1e9};
 
-void add_grid_option(CLI::App& command, int& nodes) {
-  const int standard = nodes;
-  const auto take = [&nodes, standard](const std::string& text) -> Result<void> {
-    const Result<int64_t> chosen = text == "auto" ? standard : text == "adaptive" ? 0 : parse_whole(text, {2, 256});
-    if (!chosen) return fail(text, "is neither auto nor adaptive nor a whole number from 2 to 256");
+void add_grid_option(CLI::App& command, std::optional<int>& nodes) {
+  const auto take = [&nodes](const std::string& text) -> Result<void> {
+    nodes.reset();
+    if (text == "auto") return {};
+    const Result<int64_t> chosen = parse_whole(text, {2, 256});
+    if (!chosen) return fail(text, "is neither auto nor a whole number from 2 to 256");
     nodes = static_cast<int>(*chosen);
     return {};
   };
-  add_text(
-      command, "--grid", "auto|adaptive|N", take,
-      "Nodes on the light grid's longest axis, 2 to 256; auto is 32, adaptive makes cells finer where light changes")
+  add_text(command, "--grid", "auto|N", take,
+           "auto: cells of the light grid are finer where light changes; N: nodes on its longest axis, 2 to 256, all "
+           "cells alike")
       ->default_str("auto");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lightwell/bake/light_bake.h"
@@ -16,14 +17,17 @@ struct SceneOptions {
   std::string path;         ///< a scene file, a pack, or the name of a built-in scene
   std::string environment;  ///< "R,G,B", or the name of a Radiance .hdr file; empty: the scene's own
   ImportOptions import;
-  int nodes = 32;  ///< see LightBakeOptions
+  std::optional<int> nodes;  ///< of a regular grid; without, the grid is adaptive if the method can fill it
   uint64_t photons = 8'000'000;
   const EstimatorKind* method = &estimators().front();
   int threads = 0;  ///< 0: all processors
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
   LightBakeOptions light(const LuminaireSet& contained) const {
-    return {.nodes = nodes, .method = method, .estimator = {photons, import.seed, contained, threads}};
+    constexpr int regular = 32;
+    return {.nodes = nodes.value_or(method->node_by_node ? 0 : regular),
+            .method = method,
+            .estimator = {.photons = photons, .seed = import.seed, .contained = contained, .threads = threads}};
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "lightwell/bake/enclosed_lamps.h"
 #include "lightwell/bake/lamps.h"
+#include "lightwell/bake/node_journal.h"
 #include "lightwell/bake/turned.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
@@ -19,7 +20,15 @@ struct Options {
   std::string output;
   PackOptions pack;
   LightNodeOrder order = LightNodeOrder::lattice;
+  std::optional<double> target_error;  // percent
+  uint64_t budget = 0;                 // bytes; 0: not said
+  std::optional<double> stop_after;    // seconds
+  bool preview = false, resume = false;
 };
+
+/// What --preview stands for: enough to see whether a scene comes out right.
+constexpr double preview_seconds = 2;
+constexpr uint64_t preview_photons = 500'000;
 
 // Everything that a bake makes, in the order in which it is made.
 struct Bake {
@@ -30,6 +39,8 @@ struct Bake {
   LightField field;
   PackLight light;
   std::vector<uint8_t> file;
+  std::unique_ptr<NodeJournal> journal;  // with --resume
+  size_t resumed_nodes = 0;
   LightBakeStatistics light_statistics;
   PackStatistics pack_statistics;
   double import_seconds = 0, light_seconds = 0, geometry_seconds = 0, write_seconds = 0;
@@ -52,12 +63,54 @@ Result<void> import_scene(const Options& options, Progress& progress, Bake& bake
   return {};
 }
 
+std::string journal_name(const Options& options) { return options.output + ".journal"; }
+
+Result<void> open_journal(const Options& options, Bake& bake) {
+  if (!options.resume) return {};
+  if (options.output == "-") return fail("--resume", "needs an output that is a file");
+  LW_TRY(journal, NodeJournal::open(journal_name(options)));
+  bake.resumed_nodes = journal->size();
+  bake.journal = std::move(journal);
+  return {};
+}
+
+/// Removes the journal of a bake that is complete. One that the clock ended can still be continued.
+void close_journal(const Options& options, Bake& bake) {
+  if (bake.journal == nullptr || bake.light_statistics.refinement == Refinement::to_deadline) return;
+  bake.journal.reset();
+  std::error_code ignored;
+  std::filesystem::remove(journal_name(options), ignored);
+}
+
+Result<LightBakeOptions> light_options(const Options& options, const Bake& bake) {
+  LightBakeOptions light = options.scene.light(bake.plan.contained);
+  const bool limited = options.target_error || options.budget > 0 || options.stop_after || options.preview;
+  if (limited && options.scene.nodes)
+    return fail("--grid",
+                "N is all there is to say: --target-error, --budget, --stop-after and --preview go with auto");
+  // The stratified slices of S08 are those of a regular grid.
+  constexpr int of_slices = 32;
+  if (options.order == LightNodeOrder::slices && !options.scene.nodes) light.nodes = of_slices;
+  if (options.target_error) light.target_error = static_cast<float>(*options.target_error / 100);
+  if (options.budget > 0) light.most_bytes = options.budget;
+  if (options.stop_after) light.seconds = *options.stop_after;
+  light.draft = options.preview;
+  if (options.preview) {
+    light.seconds = std::min(light.seconds, preview_seconds);
+    light.estimator.photons = std::min(light.estimator.photons, preview_photons);
+  }
+  light.estimator.journal = bake.journal.get();
+  return light;
+}
+
 Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   const World& world = *bake.world;
   warn_of_enclosed_lamps(world, bake.report);
   bake.plan = plan_lamps(world);
   const LuminaireSet& contained = bake.plan.contained;
-  LW_TRY(grids, bake_light(world, options.scene.light(contained), progress, bake.light_statistics));
+  LW_CHECK(open_journal(options, bake));
+  LW_TRY(light, light_options(options, bake));
+  LW_TRY(grids, bake_light(world, light, progress, bake.light_statistics));
   bake.light.lamps = bake.plan.client;
   PackGrid stated;
   stated.order = options.order;
@@ -99,31 +152,46 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   bake.file = std::move(file);
   bake.geometry_seconds = watch.lap();
   LW_CHECK(write_file(options.output, bake.file));
+  close_journal(options, bake);
   bake.write_seconds = watch.lap();
   return {};
 }
 
+std::string name_of(Refinement refinement) {
+  switch (refinement) {
+    case Refinement::to_target: return "target error";
+    case Refinement::to_budget: return "budget";
+    case Refinement::to_finest: return "finest cells";
+    case Refinement::to_deadline: return "time";
+  }
+  return {};
+}
+
 nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
-  return {{"triangles", bake.pack_statistics.triangles},
-          {"vertices", bake.pack_statistics.vertices},
-          {"nodes", bake.light_statistics.nodes},
-          {"photons", options.scene.photons},
-          {"rays", bake.light_statistics.rays},
-          {"seconds",
-           {{"import", bake.import_seconds},
-            {"light", bake.light_seconds},
-            {"geometry", bake.geometry_seconds},
-            {"write", bake.write_seconds}}},
-          {"rays_per_second", static_cast<double>(bake.light_statistics.rays) / bake.light_seconds},
-          {"peak_memory", peak_memory()},
-          {"pack_bytes", bake.file.size()},
-          {"bytes",
-           {{"opening", bake.pack_statistics.opening_bytes},
-            {"geometry", bake.pack_statistics.geometry_bytes},
-            {"light", bake.pack_statistics.light_bytes},
-            {"texture", bake.pack_statistics.texture_bytes}}},
-          {"estimated_error", bake.light_statistics.estimated_error},
-          {"warnings", bake.report.warnings}};
+  nlohmann::ordered_json figures = {
+      {"triangles", bake.pack_statistics.triangles},
+      {"vertices", bake.pack_statistics.vertices},
+      {"nodes", bake.light_statistics.nodes},
+      {"photons", options.scene.photons},
+      {"rays", bake.light_statistics.rays},
+      {"seconds",
+       {{"import", bake.import_seconds},
+        {"light", bake.light_seconds},
+        {"geometry", bake.geometry_seconds},
+        {"write", bake.write_seconds}}},
+      {"rays_per_second", static_cast<double>(bake.light_statistics.rays) / bake.light_seconds},
+      {"peak_memory", peak_memory()},
+      {"pack_bytes", bake.file.size()},
+      {"bytes",
+       {{"opening", bake.pack_statistics.opening_bytes},
+        {"geometry", bake.pack_statistics.geometry_bytes},
+        {"light", bake.pack_statistics.light_bytes},
+        {"texture", bake.pack_statistics.texture_bytes}}},
+      {"estimated_error", bake.light_statistics.estimated_error},
+      {"warnings", bake.report.warnings}};
+  if (bake.light_statistics.refinement) figures["refined_to"] = name_of(*bake.light_statistics.refinement);
+  if (options.resume) figures["resumed_nodes"] = bake.resumed_nodes;
+  return figures;
 }
 
 int bake_scene(const Options& options, const Console& console) {
@@ -150,6 +218,17 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_choice<LightNodeOrder>(
       *command, "--order", options->order, {{"lattice", LightNodeOrder::lattice}, {"slices", LightNodeOrder::slices}},
       "How the light grid is streamed: from coarse to fine, or some nodes of every slice of a regular grid");
+  add_number(*command, "--target-error", options->target_error, {0, 100},
+             "Of --grid auto: the error of the irradiance, root mean square in percent, at which cells are fine enough")
+      ->default_str("1");
+  add_count(*command, "--budget", options->budget, "Of --grid auto: bytes that the light may take: 40k, 128k, 1M",
+            "a count, such as 40k, 128k or 1M")
+      ->default_str("131072");
+  add_number(*command, "--stop-after", options->stop_after, {0, 1e9},
+             "Of --grid auto: seconds after which the light is refined no further; what there is, is written");
+  command->add_flag("--preview", options->preview, "A first light in seconds: fewer photons, and --stop-after 2");
+  command->add_flag("--resume", options->resume,
+                    "Keep the light of each node in PACK.journal, and go on with what an interrupted run left there");
   command->footer(
       "Examples:\n  lightwell bake room.glb -o room.lw.glb\n"
       "  lightwell bake scan.ply --unit 0.001 --up z --environment 1,1,1 -o scan.lw.glb");

@@ -26,6 +26,8 @@ Meaning meaning_of(const std::string& key, Unit outer) {
       {"peak_memory", {"peak memory", Unit::bytes}},
       {"rays_per_second", {"rays a second"}},
       {"first_picture", {"first picture"}},
+      {"refined_to", {"cells of the light grid refined up to"}},
+      {"resumed_nodes", {"nodes known from the run before"}},
       {"estimated_error", {"estimated error of the irradiance, root mean square", Unit::share}},
       {"spp", {"samples a pixel"}}};
   const auto found = known.find(key);

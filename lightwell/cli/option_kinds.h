@@ -36,7 +36,7 @@ Result<int64_t> parse_whole(const std::string& text, NumberRange range);
 /// nothing if the text is not a count.
 std::optional<uint64_t> parse_count(const std::string& text);
 
-/// Adds an option whose value is a number of the range.
+/// Adds an option whose value is a number of the range. T is a number, or an std::optional of one.
 template <typename T>
 CLI::Option* add_number(CLI::App& command, const std::string& name, T& value, NumberRange range,
                         const std::string& help) {

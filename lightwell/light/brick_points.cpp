@@ -41,7 +41,57 @@ class Coarser {
   Vec3i first_{};                        // the first corner among them
 };
 
-Vec3i lattice_point(const Brick& brick, int point) { return brick.at * Brick::cells + Brick::local(point); }
+/// Which points on a brick's border hang: those that lie on the border of a coarser cell, too, since one of the bricks
+/// of its level that would touch them is not there.
+class HangingPoints {
+ public:
+  HangingPoints(const BrickTree& tree, const Brick& brick) {
+    const Vec3i count = (tree.cells() * (1 << brick.level)) / Vec3i::filled(Brick::cells);
+    std::array<bool, sides> missing{};
+    for (int side = 0; side < sides; side++) {
+      const Brick neighbour{.level = brick.level, .at = brick.at + step(side)};
+      const Vec3i& at = neighbour.at;
+      const bool within = min(at, Vec3i{}) == Vec3i{} && max(at, count - Vec3i::filled(1)) == count - Vec3i::filled(1);
+      missing[static_cast<size_t>(side)] = within && !tree.find(neighbour);
+    }
+    for (int side = 0; side < sides; side++)
+      for (int other = 0; other < sides; other++)
+        if (touches(step(side), step(other)) && missing[static_cast<size_t>(other)])
+          hanging_[static_cast<size_t>(side)] = true;
+  }
+
+  bool at(const Vec3i& local) const {
+    Vec3i side;
+    for (int a = 0; a < 3; a++) side[a] = (local[a] == Brick::cells) - (local[a] == 0);
+    return hanging_[static_cast<size_t>(side[0] + 1 + 3 * (side[1] + 1) + 9 * (side[2] + 1))];
+  }
+
+ private:
+  static constexpr int sides = 27;  // a brick's faces, edges and corners, and its middle
+  static Vec3i step(int side) { return {{side % 3 - 1, side / 3 % 3 - 1, side / 9 - 1}}; }
+  /// Whether the neighbour on one side touches what lies on another one.
+  static bool touches(const Vec3i& side, const Vec3i& neighbour) {
+    for (int a = 0; a < 3; a++)
+      if (neighbour[a] != 0 && neighbour[a] != side[a]) return false;
+    return true;
+  }
+
+  std::array<bool, sides> hanging_{};
+};
+
+/// The mean of the two points beside a finer point, as a lookup half-way between them finds it.
+BrickPoint between(const BrickPoints& points, const Vec3i& local) {
+  int axis = 0;
+  while (local[axis] % 2 == 0) axis++;
+  Vec3i before = local, after = local;
+  before[axis]--;
+  after[axis]++;
+  const BrickPoint& a = points[static_cast<size_t>(Brick::point(before))];
+  const BrickPoint& b = points[static_cast<size_t>(Brick::point(after))];
+  BrickPoint mean{.moments = a.moments * (a.weight / (a.weight + b.weight)), .weight = (a.weight + b.weight) / 2};
+  mean.moments += b.moments * (b.weight / (a.weight + b.weight));
+  return mean;
+}
 
 }  // namespace
 
@@ -60,6 +110,12 @@ void place_brick(LightGrid& grid, uint32_t brick, const BrickPoints& nodes) {
   for (int point = 0; point < Brick::points; point++) {
     const Vec3i local = Brick::local(point);
     if (axes_between(local) == 0) points[static_cast<size_t>(point)] = coarser.at(local);
+  }
+  // What is between on two axes comes after what is between on one.
+  const HangingPoints hanging(grid.tree, grid.tree.bricks()[brick]);
+  for (const int point : finer_points()) {
+    const Vec3i local = Brick::local(point);
+    if (hanging.at(local)) points[static_cast<size_t>(point)] = between(points, local);
   }
 }
 
@@ -90,8 +146,11 @@ BrickNodes::BrickNodes(const BrickTree& tree) {
   for (uint32_t brick = 0; brick < tree.bricks().size(); brick++) {
     const Brick& cube = tree.bricks()[brick];
     first_.push_back(static_cast<uint32_t>(nodes_.size()));
+    numbers_[brick].fill(none);
+    const HangingPoints hanging(tree, cube);
     for (const int point : finer) {
-      const BrickNode first = first_at(tree, cube.level, lattice_point(cube, point));
+      if (hanging.at(Brick::local(point))) continue;
+      const BrickNode first = first_at(tree, cube.level, cube.corner(point));
       uint32_t& number = numbers_[brick][static_cast<size_t>(point)];
       if (first.brick < brick) {
         number = numbers_[first.brick][static_cast<size_t>(first.point)];

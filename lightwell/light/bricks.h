@@ -26,6 +26,8 @@ struct Brick {
   bool operator==(const Brick&) const = default;
   /// Where a point lies in the brick, 0 ... 4 on each axis; x runs fastest.
   static Vec3i local(int point) { return {{point % side, point / side % side, point / (side * side)}}; }
+  /// The same counted in cells of its level from the grid's first node.
+  Vec3i corner(int point) const { return at * cells + local(point); }
   static int point(const Vec3i& local) { return local[0] + side * (local[1] + side * local[2]); }
 };
 

@@ -77,32 +77,23 @@ Moments interpolate(const Vec3f& place, const Vec3i& last, const Point& point) {
 }  // namespace
 
 Vec3f LightGrid::irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const {
-  const Vec3f place = (point - shape.lo) / shape.cell;
-  const Vec3f offset = offset_normal * normal_offset;
+  const Vec3f place = (point - shape.lo) / shape.cell + offset_normal * normal_offset;
   const auto node = [&](const Vec3i& n) {
     const size_t i = shape.index(n);
     return std::pair(&moments[i], node_weight(valid[i]));
   };
-  if (tree.empty()) return interpolate(place + offset, shape.cells(), node).irradiance(direction);
-  // The brick is looked for a little in front of a surface that may lie where two of them meet.
-  const Vec3f before = place + offset * std::ldexp(1.0f, -tree.levels());
-  if (const auto brick = tree.finest(before)) {
-    const Brick& cube = tree.bricks()[*brick];
-    const Vec3f local = place * std::ldexp(1.0f, cube.level) + offset - (cube.at * Brick::cells).cast<float>();
-    const auto brick_point = [&, &points = bricks[*brick]](const Vec3i& n) {
-      const BrickPoint& found = points[static_cast<size_t>(Brick::point(n))];
-      return std::pair(&found.moments, found.weight);
-    };
-    return interpolate(local, Vec3i::filled(Brick::cells), brick_point).irradiance(direction);
+  if (!tree.empty()) {
+    if (const auto brick = tree.finest(place)) {
+      const Brick& cube = tree.bricks()[*brick];
+      const Vec3f local = place * std::ldexp(1.0f, cube.level) - (cube.at * Brick::cells).cast<float>();
+      const auto brick_point = [&, &points = bricks[*brick]](const Vec3i& n) {
+        const BrickPoint& found = points[static_cast<size_t>(Brick::point(n))];
+        return std::pair(&found.moments, found.weight);
+      };
+      return interpolate(local, Vec3i::filled(Brick::cells), brick_point).irradiance(direction);
+    }
   }
-  // What is not divided is looked up in bricks as well, as on the GPU.
-  Vec3f inside;
-  for (int a = 0; a < 3; a++) {
-    const float last = static_cast<float>(shape.cells()[a]) - 0.5f;
-    const float first = Brick::cells * std::floor(std::clamp(before[a], 0.0f, last) / Brick::cells);
-    inside[a] = std::clamp(place[a] + offset[a], first, first + Brick::cells);
-  }
-  return interpolate(inside, shape.cells(), node).irradiance(direction);
+  return interpolate(place, shape.cells(), node).irradiance(direction);
 }
 
 namespace {

@@ -78,14 +78,15 @@ struct LightGrid {
   GridShape shape;
   std::vector<Moments> moments;  ///< shape.count()
   std::vector<uint8_t> valid;    ///< 1 for a node in free space, 0 inside a solid
-  float normal_offset = 0.5f;    ///< lookups are shifted by this many cells along the normal (docs/light.md section 5)
+  float normal_offset = 0.5f;    ///< lookups are shifted by this many of its own cells along the normal (docs/light.md
+                                 ///< section 5), in bricks too: light goes over from one into the other without a seam
   BrickTree tree;                ///< empty in a regular grid
   std::vector<BrickPoints> bricks;  ///< the points of the tree's bricks: see place_brick
 
   /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`. Interpolates
-  /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, weighted by node_weight;
-  /// the cell is that of the finest brick there. The direction is the normal for diffuse reflection and the mirrored
-  /// view direction for specular reflection. Points outside are clamped to the grid.
+  /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, those of the finest brick
+  /// there, weighted by node_weight. The direction is the normal for diffuse reflection and the mirrored view direction
+  /// for specular reflection. Points outside are clamped to the grid.
   Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
   /// The same for diffuse reflection, in the direction of the normal.
   Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const { return irradiance(point, normal, normal); }
@@ -96,9 +97,9 @@ struct LightGrid {
 /// their fill.
 constexpr float node_weight(bool valid) { return valid ? 1.0f : 0x1p-13f; }
 
-/// Sets the points of a brick, of which all coarser bricks are placed: its finer_points() are those of `nodes`, and on
-/// the corners of coarser cells it has their light. What lies on the border of a coarser cell is a node as well: the
-/// mean of that cell's corners would be that of a place farther off the surfaces than a finer cell's lookups are.
+/// Sets the points of a brick, of which all coarser bricks are placed: its finer_points() are those of `nodes`; on the
+/// corners of coarser cells it has their light, and on their borders, where a neighbour is not as fine as the brick,
+/// what lookups in that neighbour give. So light is continuous wherever finer cells end.
 void place_brick(LightGrid& grid, uint32_t brick, const BrickPoints& nodes);
 
 /// The points of a brick between the corners of coarser cells: first those on their edges, then those in their faces,
@@ -119,8 +120,10 @@ class BrickNodes {
   std::span<const BrickNode> nodes() const { return nodes_; }
   /// The number of the first node of each brick, and at the end the number of all.
   std::span<const uint32_t> first() const { return first_; }
-  /// The number of the node at one of the finer_points() of a brick, which may be another brick's.
+  /// The number of the node at one of the finer_points() of a brick, which may be another brick's; `none` where it
+  /// hangs on the border of a coarser cell.
   uint32_t at(uint32_t brick, int point) const { return numbers_[brick][static_cast<size_t>(point)]; }
+  static constexpr uint32_t none = ~uint32_t(0);
 
  private:
   std::vector<BrickNode> nodes_;

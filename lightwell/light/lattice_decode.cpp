@@ -59,8 +59,8 @@ LatticeDecoder::LatticeDecoder(LatticeLayout layout)
 
 Result<LatticeDecoder> LatticeDecoder::open(Bytes parameters, uint64_t stream_bytes) {
   LW_TRY(layout, LatticeLayout::read(parameters));
-  // A brick has at least the 27 nodes in the middle of its cells' edges, faces and cells that no other one shares.
-  constexpr uint64_t least_nodes_a_brick = 27;
+  // A brick has at least the 26 nodes that lie within it.
+  constexpr uint64_t least_nodes_a_brick = 26;
   const uint64_t nodes =
       layout.shape.count() - layout.corners.size() + least_nodes_a_brick * layout.tree.bricks().size();
   if (nodes / light_nodes_per_byte > stream_bytes)

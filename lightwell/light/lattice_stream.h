@@ -68,7 +68,7 @@ class LatticeField {
   /// The values of the grid's nodes when so many are known: those of the others lie between them.
   std::vector<LatticeValue> values(size_t known) const;
   /// Sets the points of a brick in turn: those that it shares with bricks before it, which must be set, are taken over,
-  /// and code(value, expectation, point) sets the others.
+  /// those that hang are as expected, and code(value, expectation, point) sets the others.
   template <typename Code>
   void set_brick(uint32_t brick, const Code& code);
 
@@ -138,7 +138,9 @@ void LatticeField::set_brick(uint32_t brick, const Code& code) {
   for (const int point : finer_) {
     LatticeValue& value = points[static_cast<size_t>(point)];
     const uint32_t number = nodes_.at(brick, point);
-    if (number < own) {
+    if (number == BrickNodes::none) {
+      value = expect(points, point).value();
+    } else if (number < own) {
       const BrickNode& first = nodes_.nodes()[number];
       value = bricks_[first.brick][static_cast<size_t>(first.point)];
     } else {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lightwell/base/fingerprint.h"
 #include "lightwell/base/parallel.h"
 
 namespace lightwell {
@@ -323,6 +324,11 @@ Vec3f SurfaceCache::reflected(const Gathering& gathering) const {
     sum += point.albedo * irradiance(point.position, point.facing) * (1 / pi);
   }
   return sum;
+}
+
+uint64_t SurfaceCache::fingerprint(uint64_t seed) const {
+  const auto* bytes = reinterpret_cast<const uint8_t*>(irradiance_.data());
+  return lightwell::fingerprint({bytes, irradiance_.size() * sizeof(Vec3f)}, seed);
 }
 
 }  // namespace lightwell

@@ -38,6 +38,9 @@ class SurfaceCache {
   /// The radiance that a ray sees by reflection, W/m2/sr.
   Vec3f reflected(const Gathering& gathering) const;
 
+  /// A number for the light of all cells, as good as unique.
+  uint64_t fingerprint(uint64_t seed) const;
+
   size_t cells() const { return irradiance_.size(); }
   /// Rays that it took.
   uint64_t rays() const { return rays_; }

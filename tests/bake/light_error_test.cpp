@@ -18,8 +18,7 @@ struct Furnace {
   SurfaceCache cache =
       SurfaceCache::build(*world, middle, {.region = world->surfaces().bounds(), .cell = 0.2f, .samples = 256}, silent)
           .value();
-  LuminaireSet none;
-  GatheredLight light{*world, space, cache, none, world->surfaces().bounds()};
+  GatheredLight light{{*world, space, cache, world->surfaces().bounds()}, {}};
   float irradiance = 2 * pi;
 
   /// A grid of so many times the right light, on its half of x < 1 and on the other.

@@ -74,16 +74,51 @@ TEST_F(Commands, BakeReportsTheContractedKeys) {
 }
 
 TEST_F(Commands, EveryKindOfGridIsPackedAndRead) {
-  for (const std::string options : {"--grid adaptive", "--grid 6 --order slices", "--grid 6 --order lattice"}) {
+  for (const std::string options : {"--grid auto", "--grid 6 --order slices", "--grid 6 --order lattice",
+                                    "--method tracks", "--order slices", "--preview"}) {
     const std::string pack = path("kind.glb");
     ASSERT_EQ(run("bake box-small -o " + pack + " --photons 20k --quiet " + options).status, 0) << options;
     EXPECT_EQ(run("verify " + pack).status, 0) << options;
     EXPECT_EQ(run("render " + pack + " --integrator ivg --spp 1 --size 16x9 -o " + path("k.png")).status, 0) << options;
   }
-  const Outcome refused = run("bake box-small --grid adaptive --order slices --photons 20k -o " + path("no.glb"));
+  const Outcome refused = run("bake box-small --grid 6 --budget 20k -o " + path("no.glb"));
   EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.err.find("knows no bricks"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("go with auto"), std::string::npos) << refused.err;
   EXPECT_FALSE(fs::exists(path("no.glb")));
+}
+
+TEST_F(Commands, AdaptiveGridsKeepToBudgetTargetAndTime) {
+  const std::string bake = "bake box-small --photons 20k --quiet --json -o " + path("a.glb");
+  const auto figures = [&](const std::string& options) { return json::parse(run(bake + options).out); };
+  const json small = figures(" --target-error 0 --budget 12k");
+  EXPECT_EQ(small["refined_to"], "budget");
+  EXPECT_LE(small["bytes"]["light"], 12'000);
+  EXPECT_EQ(figures(" --target-error 60 --budget 12k")["refined_to"], "target error");
+  EXPECT_EQ(figures(" --target-error 0 --stop-after 0 --budget 12k")["refined_to"], "time");
+  EXPECT_FALSE(figures(" --grid 6").contains("refined_to"));
+}
+
+// What a killed bake has gathered is taken up by the next one, which ends in the same bytes.
+TEST_F(Commands, AnInterruptedBakeIsResumedToTheSameBytes) {
+  const std::string options = " --photons 20k --quiet --json --budget 12k";
+  ASSERT_EQ(run("bake box-small -o " + path("whole.glb") + options).status, 0);
+  const std::string journal = path("a.glb.journal");
+  ASSERT_EQ(run("bake box-small --resume --stop-after 0 -o " + path("a.glb") + options).status, 0);
+  ASSERT_TRUE(fs::exists(journal)) << "a bake that the clock ended can be continued";
+  const std::string kept = read(journal);
+  ASSERT_GT(kept.size(), 128u * 100);
+  // The last record is cut, one before it is damaged: what comes after is forgotten.
+  std::string damaged = kept.substr(0, kept.size() - 50);
+  damaged[damaged.size() / 2] ^= 1;
+  for (const std::string& left : {std::string(), damaged, kept, std::string("no journal at all")}) {
+    std::ofstream(journal, std::ios::binary) << left;
+    const Outcome resumed = run("bake box-small --resume -o " + path("a.glb") + options);
+    ASSERT_EQ(resumed.status, 0) << resumed.err;
+    EXPECT_EQ(json::parse(resumed.out)["resumed_nodes"].get<size_t>() > 0, left.size() > 1000);
+    EXPECT_EQ(read(path("a.glb")), read(path("whole.glb")));
+    EXPECT_FALSE(fs::exists(journal)) << "nothing is left of a complete bake";
+  }
+  EXPECT_EQ(run("bake box-small --resume -o -" + options).status, 1);
 }
 
 TEST_F(Commands, TheSameSeedGivesTheSameBytesForAnyThreads) {

@@ -25,7 +25,7 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"bake box-small more" + out, "more: more than was expected"},
            {"bake box-small --phtons 5" + out, "--phtons 5: no such option"},
            {"bake box-small --grid 1" + out,
-            "--grid: 1: is neither auto nor adaptive nor a whole number from 2 to 256"},
+            "--grid: 1: is neither auto nor a whole number from 2 to 256"},
            {"bake box-small --grid many" + out, "neither auto nor"},
            {"bake box-small --order best" + out, "--order: best: is not lattice or slices"},
            {"bake box-small --photons many" + out, "such as 5000, 200k, 8M or 1G"},

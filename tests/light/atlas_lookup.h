@@ -61,15 +61,15 @@ class AtlasLookup {
   /// The same for a grid with bricks, as shaders/light_grid.glsl does it: `place` in cells of the grid.
   Vec3f irradiance_of_bricks(const Vec3f& place, const Vec3f& n) const {
     const Vec4f header = texel(0, 0, 0), parts = texel(1, 0, 0), cells = texel(2, 0, 0);
-    const Vec3f last{{cells[0], cells[1], cells[2]}}, offset = n * header[3];
+    const Vec3f last{{cells[0], cells[1], cells[2]}}, at = place + n * header[3];
     const float finest = std::exp2(parts[1]);
-    const Vec3f before = max(Vec3f{}, min(place + offset / finest, last - Vec3f::filled(0.5f / finest)));
-    const Vec3f cube = before * (finest / 4);
+    const Vec3f within = max(Vec3f{}, min(at, last - Vec3f::filled(0.5f / finest)));
+    const Vec3f cube = within * (finest / 4);
     const Vec4f brick = texel(static_cast<int>(cube[0]), static_cast<int>(cube[1]), 1 + static_cast<int>(cube[2]));
     const float level = std::exp2(brick[3]);
     Vec3f local;
     for (int a = 0; a < 3; a++)
-      local[a] = std::clamp(place[a] * level + offset[a] - 4 * std::floor(before[a] * level / 4), 0.0f, 4.0f);
+      local[a] = std::clamp(at[a] * level - 4 * std::floor(within[a] * level / 4), 0.0f, 4.0f);
     return evaluate(local + Vec3f{{brick[0], brick[1], brick[2] + parts[3]}}, parts[2], n);
   }
 

@@ -44,7 +44,20 @@ TEST(BrickTree, ComesBackFromItsBits) {
   }
 }
 
-TEST(BrickNodes, AreEveryFinerPointOnce) {
+/// Whether some place right beside a corner of a level's cells, within the grid, has no cells of that level.
+bool hangs(const BrickTree& tree, int level, const Vec3i& corner) {
+  for (int side = 0; side < 8; side++) {
+    Vec3f place;
+    for (int a = 0; a < 3; a++)
+      place[a] = std::ldexp(static_cast<float>(corner[a]) + ((side >> a & 1) != 0 ? 0.5f : -0.5f), -level);
+    if (max(Vec3f{}, min(place, tree.cells().cast<float>())) != place) continue;
+    const auto finest = tree.finest(place);
+    if (!finest || tree.bricks()[*finest].level < level) return true;
+  }
+  return false;
+}
+
+TEST(BrickNodes, AreEveryFinerPointOnceButForThoseThatHang) {
   for (uint64_t seed = 0; seed < 10; seed++) {
     const LightGrid grid = bricked_grid(seed, 30);
     const BrickNodes nodes(grid.tree);
@@ -52,15 +65,20 @@ TEST(BrickNodes, AreEveryFinerPointOnce) {
     for (uint32_t brick = 0; brick < grid.bricks.size(); brick++) {
       const Brick& cube = grid.tree.bricks()[brick];
       for (const int point : finer_points()) {
-        const Vec3i p = cube.at * Brick::cells + Brick::local(point);
+        if (nodes.at(brick, point) == BrickNodes::none) {
+          EXPECT_TRUE(hangs(grid.tree, cube.level, cube.corner(point)));
+          continue;
+        }
+        const Vec3i p = cube.corner(point);
+        EXPECT_FALSE(hangs(grid.tree, cube.level, p));
         places.insert({cube.level, p[0], p[1], p[2]});
         const BrickNode& node = nodes.nodes()[nodes.at(brick, point)];
         const Brick& first = grid.tree.bricks()[node.brick];
         EXPECT_LE(node.brick, brick);
         EXPECT_EQ(first.level, cube.level);
-        EXPECT_EQ(first.at * Brick::cells + Brick::local(node.point), p);
+        EXPECT_EQ(first.corner(node.point), p);
       }
-      EXPECT_GE(nodes.first()[brick + 1] - nodes.first()[brick], 27u) << "what LatticeDecoder::open relies on";
+      EXPECT_GE(nodes.first()[brick + 1] - nodes.first()[brick], 26u) << "what LatticeDecoder::open relies on";
     }
     EXPECT_EQ(places.size(), nodes.nodes().size());
   }
@@ -84,7 +102,7 @@ TEST(Bricks, InterpolateALinearFieldExactly) {
   }
 }
 
-TEST(Bricks, LookUpInFrontOfTheSurfaceByTheirOwnCells) {
+TEST(Bricks, LookUpAsFarInFrontOfTheSurfaceAsTheGrid) {
   const GridShape shape{{{0, 0, 0}}, {{1, 1, 1}}, {{5, 5, 5}}};
   BrickTree tree(shape.cells());
   tree.add({1, {{0, 0, 0}}});
@@ -92,8 +110,39 @@ TEST(Bricks, LookUpInFrontOfTheSurfaceByTheirOwnCells) {
       shape, tree, [](const Vec3f& p) { return std::pair(uniform_light(Vec3f::filled(1 + p[0])), true); });
   grid.normal_offset = 0.5f;
   const Vec3f n{{1, 0, 0}};
-  EXPECT_NEAR(grid.irradiance({{1, 1, 1}}, n)[0] / std::numbers::pi_v<float>, 2.25f, 1e-4f);
+  EXPECT_NEAR(grid.irradiance({{1, 1, 1}}, n)[0] / std::numbers::pi_v<float>, 2.5f, 1e-4f);
   EXPECT_NEAR(grid.irradiance({{3, 1, 1}}, n)[0] / std::numbers::pi_v<float>, 4.5f, 1e-4f);
+}
+
+// A step across the border of any two cells changes the light by what a step of its length may, beside a solid too.
+TEST(Bricks, GoOverIntoEachOtherWithoutASeam) {
+  for (uint64_t seed = 0; seed < 12; seed++) {
+    Random random(seed, 9);
+    const GridShape shape = divisible_shape(random);
+    const Vec3f size = shape.hi() - shape.lo, solid = shape.lo + size * random_colour(random);
+    const auto free = [&](const Vec3f& p) { return length((p - solid) / size) > 0.3f; };
+    const LightGrid grid = grid_of_field(shape, random_tree(shape, random, 40), [&](const Vec3f& p) {
+      const Vec3f share = (p - shape.lo) / size;
+      return std::pair(parallel_light({{0, 0.6f, 0.8f}}, Vec3f::filled(1) + share * share), free(p));
+    });
+    const Vec3f finest = grid.shape.cell * std::ldexp(1.0f, -grid.tree.levels());
+    for (int i = 0; i < 500; i++) {
+      // Half of a step on either side of a corner's plane, of any level.
+      const int axis = static_cast<int>(random.below(3));
+      Vec3f p = grid.shape.lo + (grid.shape.hi() - grid.shape.lo) * random_colour(random);
+      const float plane = std::round((p[axis] - grid.shape.lo[axis]) / finest[axis]);
+      const float step = 1e-3f * finest[axis];
+      const auto light = [&](float side) {
+        p[axis] = grid.shape.lo[axis] + plane * finest[axis] + side * step / 2;
+        return grid.irradiance(p, {}, {{0, 0, 1}});
+      };
+      if (!free(p)) continue;  // nobody sees what is inside
+      const Vec3f before = light(-1), after = light(1), far_before = light(-501), far_after = light(501);
+      const float allowed =
+          1e-3f * max_component(before) + 0.02f * (length(before - far_before) + length(after - far_after));
+      EXPECT_LE(length(before - after), allowed) << seed;
+    }
+  }
 }
 
 // What is invalid inside of a solid does not reach a lookup beside valid nodes.

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "lightwell/light/grid.h"
+
+namespace lightwell {
+
+/// What rays in all directions from a place find.
+struct NodeSurroundings {
+  Moments moments;    ///< W/m2
+  float insides = 0;  ///< share of the rays that met the inside of a solid
+  float noise = 0;    ///< of the moments, as a share of them: half of the rays against the other half
+  uint32_t rays = 0;
+};
+
+/// The sum of the sizes of E in all directions and colours.
+inline float size_of(const Moments& moments) {
+  float sum = 0;
+  for (size_t d = 0; d < 6; d++)
+    for (int c = 0; c < 3; c++) sum += std::abs(moments.m[d][c]);
+  return sum;
+}
+
+}  // namespace lightwell
