@@ -8,6 +8,7 @@
 #include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
+#include "lightwell/scene/sun_of_sky.h"
 
 namespace lightwell {
 namespace {
@@ -60,6 +61,7 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   if (!options.environment.empty()) {
     LW_TRY(surroundings, read_environment(options.environment));
     if (!surroundings.map) note_sky(opened->scene, surroundings.radiance);
+    if (const auto sun = take_sun(surroundings)) add_sun(opened->scene, *sun);
     opened->scene.environment = std::move(surroundings);
   }
   return opened;

@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/trace/environment.h"
 
+#include "lightwell/scene/sky_map.h"
+
 namespace lightwell {
 namespace {
 
 constexpr float whole_sphere = 4 * pi;
-
-/// The cosine of the polar angle at the upper edge of a row.
-float cos_edge(int row, int height) { return std::cos(pi * static_cast<float>(row) / static_cast<float>(height)); }
-
-/// The solid angle of a pixel in a row of a latitude-longitude map.
-float solid_angle(int row, const RadianceImage& map) {
-  // The difference of the edges' cosines as a product, which does not vanish near the poles.
-  const float half = pi / (2 * static_cast<float>(map.height));
-  const float difference = 2 * std::sin(static_cast<float>(2 * row + 1) * half) * std::sin(half);
-  return 2 * pi / static_cast<float>(map.width) * difference;
-}
-
-Vec3f pixel_radiance(const RadianceImage& map, size_t pixel) {
-  const float* p = &map.pixels[3 * pixel];
-  return max(Vec3f{{p[0], p[1], p[2]}}, Vec3f{});
-}
 
 }  // namespace
 

@@ -2,6 +2,9 @@
 #include "lightwell/trace/focus.h"
 
 #include <algorithm>
+#include <set>
+
+#include "lightwell/trace/enclosure.h"
 
 namespace lightwell {
 namespace {
@@ -37,10 +40,22 @@ double faces_of(const std::vector<Part>& parts) {
   return faces;
 }
 
+/// The meshes right round lamps, small beside the whole, which stand for these lamps and not for what is lit.
+std::set<uint32_t> bulbs_of(const TraceScene& scene) {
+  std::set<uint32_t> bulbs;
+  for (const Lamp& lamp : scene.scene().lamps) {
+    if (lamp.kind == Lamp::Kind::sun) continue;
+    const auto around = enclosure_of(scene, lamp.position);
+    if (around && around->reach <= most_of_whole * extent(scene.bounds())) bulbs.insert(around->instance);
+  }
+  return bulbs;
+}
+
 std::vector<Part> parts_of(const TraceScene& scene) {
+  const std::set<uint32_t> bulbs = bulbs_of(scene);
   std::vector<Part> parts;
   for (uint32_t i = 0; i < scene.scene().instances.size(); i++) {
-    if (!scene.traced(i)) continue;
+    if (!scene.traced(i) || bulbs.contains(i)) continue;
     const size_t faces = scene.mesh(i).faces.size();
     const size_t run = (faces + most_parts - 1) / most_parts;
     for (size_t face = 0; face < faces; face++) {
@@ -110,6 +125,7 @@ bool remove_strays(std::vector<Part>& parts, int axis) {
 Box3f focus_of(const TraceScene& scene) {
   const Box3f whole = scene.bounds();
   std::vector<Part> parts = parts_of(scene);
+  if (parts.empty()) return whole;
   const Box3f stands = stands_of(scene.scene(), whole);
   remove_surroundings(parts, stands);
   for (int round = 0; round < most_rounds; round++) {

@@ -67,6 +67,15 @@ TEST(Focus, LeavesOutASkyDomeAndAStray) {
   EXPECT_EQ(focus(scene), room_box);
 }
 
+// The mesh right round a lamp is no statue.
+TEST(Focus, IsNotABulb) {
+  Scene scene = scene_of(room({{-2, 0, -2}}, {{2, 3, 2}}), lambertian(0.7f));
+  add(scene, turned(sphere(0.05f, 4)), lambertian(0.9f), {.t = {{0, 2, 0}}});
+  EXPECT_LT(length(focus(scene).size()), 1);
+  scene.lamps = {point_lamp({{0, 2, 0}}, {{5, 5, 5}})};
+  EXPECT_EQ(focus(scene), room_box);
+}
+
 // A statue of many faces in a hall of few: the hall's camera stands in it.
 TEST(Focus, KeepsAHallAroundASmallScan) {
   Scene scene = scene_of(room({{-10, 0, -10}}, {{10, 6, 10}}), lambertian(0.7f));
