@@ -4,7 +4,7 @@
 // its path is given, lightwell.wasm:   node build.mjs [WASM]
 import { spawnSync } from 'node:child_process';
 import { copyFile, mkdir, readFile, rm, writeFile } from 'node:fs/promises';
-import { bundle } from './bundle.mjs';
+import { bundle, FOR_BUNDLERS } from './bundle.mjs';
 
 /** Properties that three.js keeps to itself: the page holds all of three.js, so that nothing else needs their names. */
 const PRIVATE_PROPERTIES = /^_[a-z]/;
@@ -18,11 +18,14 @@ process.chdir(import.meta.dirname);
 await rm('dist', { recursive: true, force: true });
 await mkdir('dist');
 const bundles = await Promise.all([
-  bundle({
-    entryPoints: { core: 'src/core/index.ts', three: 'src/three/index.ts', element: 'src/element/index.ts' },
-    external: ['three', 'three/*'],
-    splitting: true,
-  }),
+  bundle(
+    {
+      entryPoints: { core: 'src/core/index.ts', three: 'src/three/index.ts', element: 'src/element/index.ts' },
+      external: ['three', 'three/*'],
+      splitting: true,
+    },
+    FOR_BUNDLERS,
+  ),
   bundle({ entryPoints: { worker: 'src/core/worker.ts' } }),
   bundle({
     entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' },
@@ -35,6 +38,9 @@ await writeFile('dist/index.html', (await readFile('src/page/index.html', 'utf8'
 const wasm = process.argv[2];
 if (wasm !== undefined) await copyFile(wasm, 'dist/lightwell.wasm');
 
+await copyFile('../LICENSE', 'dist/LICENSE');
+await mkdir('dist/types');
+await copyFile('src/react.d.ts', 'dist/types/react.d.ts');
 const types = ['--project', '.', '--noEmit', 'false', '--emitDeclarationOnly', '--declaration', '--outDir', 'dist/types'];
 const { status } = spawnSync('node_modules/.bin/tsc', types, { stdio: 'inherit' });
 process.exit(status ?? 1);

@@ -86,15 +86,16 @@ function absolute(url: string): string {
 }
 
 /**
- * Starts the worker from a Blob that imports the script, since browsers refuse a worker script of another origin. Resolves
+ * Starts the worker: from a Blob that imports the script where that is of another origin, since browsers refuse it. Resolves
  * when the worker has said that it runs, rejects when the page's rules forbid it.
  */
 function connectWorker(workerUrl: string, listen: (events: PackEvent[]) => void): Promise<Port> {
   return new Promise((resolve, reject) => {
     const source = `import ${JSON.stringify(workerUrl)};`;
-    const blobUrl = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
-    const worker = new Worker(blobUrl, { type: 'module' });
-    const settle = () => URL.revokeObjectURL(blobUrl);
+    const own = new URL(workerUrl).origin === origin;
+    const url = own ? workerUrl : URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
+    const worker = new Worker(url, { type: 'module' });
+    const settle = () => URL.revokeObjectURL(url);
     worker.onerror = (event) => {
       settle();
       worker.terminate();
@@ -114,7 +115,7 @@ function connectWorker(workerUrl: string, listen: (events: PackEvent[]) => void)
 
 /** The same script as a module of the page: decoding then shares the page's thread. */
 async function connectHere(workerUrl: string, listen: (events: PackEvent[]) => void): Promise<Port> {
-  const module = (await import(/* @vite-ignore */ workerUrl)) as typeof import('./worker.js');
+  const module = (await import(/* webpackIgnore: true */ /* @vite-ignore */ workerUrl)) as typeof import('./worker.js');
   const session = module.startSession(listen);
   return { postMessage: (command) => session.command(command), close: () => session.close() };
 }

@@ -1,5 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 
+/** The attributes of <lightwell-view> with what they may say; web/README.md explains each. */
+export interface LightwellViewAttributes {
+  src?: string;
+  poster?: string;
+  loading?: 'auto' | 'eager' | 'lazy';
+  'camera-controls'?: boolean | '' | 'always';
+  'camera-orbit'?: string;
+  'camera-target'?: string;
+  'field-of-view'?: string;
+  exposure?: number | string;
+  light?: 'all' | 'off' | 'direct' | 'indirect';
+  tone?: 'neutral' | 'none';
+  strategy?: 'interleave' | 'geometry' | 'light';
+  wireframe?: boolean | '';
+}
+
+/** The attributes that change the picture. */
+export const DRAWN_ATTRIBUTES = [
+  'camera-controls',
+  'camera-orbit',
+  'camera-target',
+  'field-of-view',
+  'exposure',
+  'light',
+  'tone',
+  'strategy',
+  'wireframe',
+  'aria-label',
+];
+export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
+export const STRATEGIES = ['interleave', 'geometry', 'light'] as const;
+export const TONES = ['neutral', 'none'] as const;
+
 const UNITS: Record<string, number> = { '': 1, deg: Math.PI / 180, rad: 1, m: 1, cm: 0.01, mm: 0.001 };
 
 /** A number with one of the units, or without one: "30deg", "1.5m", "0.5rad". Angles in radians. Null if it is none. */

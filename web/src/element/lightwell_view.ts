@@ -1,74 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera, Scene } from 'three';
-import type { ConnectionEvent, FailureEvent, Progress, Strategy } from '../core/protocol.js';
+import { PerspectiveCamera, Scene } from 'three';
+import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
 import type { LightwellScene } from '../three/scene.js';
-import { parseQuantity, parseTriple, parseWord } from './attributes.js';
+import { DRAWN_ATTRIBUTES, LIGHTS, parseQuantity, parseTriple, parseWord, STRATEGIES, TONES } from './attributes.js';
+import { type ContextHolder, dropContext, serveContexts, wantContext } from './contexts.js';
+import type { LightwellViewDetails, Listens } from './events.js';
 import { Orbit, type View } from './orbit.js';
+import { Overlay } from './overlay.js';
 import { Stage } from './stage.js';
 
-/** The element's events by name, with what their `detail` holds. */
-export interface LightwellViewDetails {
-  load: null;
-  firstframe: null;
-  progress: Progress;
-  connection: { state: ConnectionEvent['state'] };
-  complete: null;
-  'camera-change': View;
-  error: { reason: FailureEvent['reason'] | 'unsupported'; message: string };
-}
-
-const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
-const STRATEGIES = ['interleave', 'geometry', 'light'] as const;
-const TONES = ['neutral', 'none'] as const;
 const DEFAULT_LABEL = '3D scene. Arrow keys turn it, shift and arrow keys move it, plus and minus zoom, Home returns.';
+/** Where there is no document, as on a server that makes pages, the class is there but no element of it. */
+const Base = (globalThis.HTMLElement ?? Object) as new () => Listens & HTMLElement;
 /** Pause before a file that was replaced is read anew, in milliseconds; it doubles with each time, up to the longest. */
 const REPLACED_PAUSE = 1000;
 const LONGEST_REPLACED_PAUSE = 60_000;
 /** The stream is told the view once that has rested for so long, in milliseconds. */
 const VIEW_REST = 150;
 
-const STYLE = `
-  :host { display: block; position: relative; min-width: 1px; min-height: 150px; contain: content; }
-  :host([hidden]) { display: none; }
-  canvas { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline-offset: -2px; }
-  img { position: absolute; inset: 0; width: 100%; height: 100%; object-fit: cover; transition: opacity 0.4s; }
-  img.gone { opacity: 0; pointer-events: none; }
-`;
-
 /**
  * `<lightwell-view src="room.lw.glb" camera-controls>` shows a pack.
  *
  * Attributes: `src`, `poster` (a picture until the first frame), `loading` ("auto" and "eager" at once, "lazy" when it comes
- * near the screen), `camera-controls`, `camera-orbit` ("30deg 75deg 4m": azimuth, angle from the vertical, distance),
- * `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by default the pack's), `light` ("all", "off",
- * "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave", "geometry", "light"), `wireframe`.
+ * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page), `camera-orbit` ("30deg 75deg 4m":
+ * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
+ * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
+ * "geometry", "light"), `wireframe`.
  *
  * Events: `load` when the scene is there, `firstframe`, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).
+ *
+ * Slots: "progress" and "error" take the places of the bar and of the message.
+ *
+ * Of many elements those near the screen draw, twelve at most, and six on a phone; another one shows its last picture, and loads anew
+ * when it is wanted again. What the page has put into `scene` stays.
  */
-export class LightwellView extends HTMLElement {
-  static readonly observedAttributes = [
-    'src',
-    'poster',
-    'loading',
-    'camera-controls',
-    'camera-orbit',
-    'camera-target',
-    'field-of-view',
-    'exposure',
-    'light',
-    'tone',
-    'strategy',
-    'wireframe',
-    'aria-label',
-  ];
+export class LightwellView extends Base implements ContextHolder {
+  static readonly observedAttributes = [...DRAWN_ATTRIBUTES, 'src', 'loading', 'poster'];
 
+  /** The three.js scene, for objects of the page's own; call `invalidate` after a change. */
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera();
+  #overlay: Overlay | null = null;
+  /** While the element has a WebGL context. */
   #stage: Stage | null = null;
   #orbit: Orbit | null = null;
   #pack: LightwellScene | null = null;
-  #poster: HTMLImageElement | null = null;
   /** Of the pack that is loading or shown; null when none is. */
   #loader: LightwellLoader | null = null;
   #replacedPause = REPLACED_PAUSE;
@@ -78,20 +57,13 @@ export class LightwellView extends HTMLElement {
   #firstFrame = false;
   #progress: Progress | null = null;
   #wantedView: View | null = null;
+  /** Of the pack whose last picture stands for it. */
+  #keptView: View | null = null;
   #viewTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #resize = new ResizeObserver(() => this.#stage?.resize(this.clientWidth, this.clientHeight));
   readonly #intersection = new IntersectionObserver((entries) => this.#onIntersection(entries.at(-1)!.isIntersecting), {
     rootMargin: '100px',
   });
-
-  /** The three.js scene, for objects of the page's own; call `invalidate` after a change. */
-  get scene(): Scene | null {
-    return this.#stage?.scene ?? null;
-  }
-
-  get camera(): Camera | null {
-    return this.#stage?.camera ?? null;
-  }
 
   /** The pack, once it is there. */
   get pack(): LightwellScene | null {
@@ -150,57 +122,104 @@ export class LightwellView extends HTMLElement {
   /** The present picture. */
   toDataURL(type?: string, quality?: number): string {
     if (this.#stage === null) throw new Error('lightwell-view: not part of a page');
+    this.#stage.sharpen();
     this.#stage.draw();
     return this.#stage.canvas.toDataURL(type, quality);
   }
 
   connectedCallback(): void {
-    const root = this.shadowRoot ?? this.attachShadow({ mode: 'open' });
-    const style = document.createElement('style');
-    style.textContent = STYLE;
-    root.replaceChildren(style);
-    const stage = this.#createStage();
-    if (stage === null) return this.#apply('poster');
-    this.#stage = stage;
-    this.#orbit = new Orbit(stage.camera, stage.canvas, () => this.#onView());
-    stage.beforeFrame = (seconds) => this.#orbit?.update(seconds);
-    stage.afterFrame = () => this.#onFrame();
-    root.append(stage.canvas);
+    if (this.#overlay === null) {
+      this.#overlay = new Overlay(this.attachShadow({ mode: 'open' }));
+      for (const use of ['pointerenter', 'focusin']) this.addEventListener(use, () => this.#wake());
+    }
+    this.#apply('poster');
     this.#resize.observe(this);
     this.#intersection.observe(this);
-    for (const name of LightwellView.observedAttributes) if (name !== 'src' && name !== 'loading') this.#apply(name);
-    this.#open();
-  }
-
-  /** Null where the browser cannot draw; the error event follows a turn later, when the page can listen. */
-  #createStage(): Stage | null {
-    try {
-      return new Stage();
-    } catch (error) {
-      setTimeout(() => this.#emit('error', { reason: 'unsupported', message: messageOf(error) }));
-      return null;
-    }
+    if (this.getAttribute('loading') !== 'lazy') wantContext(this);
   }
 
   disconnectedCallback(): void {
     this.#resize.disconnect();
     this.#intersection.disconnect();
+    this.#near = false;
+    dropContext(this);
+  }
+
+  get near(): boolean {
+    return this.#near;
+  }
+
+  get spare(): boolean {
+    return !this.#near || (this.#complete && !this.matches(':hover, :focus-within'));
+  }
+
+  /** Null where the browser cannot draw; the error event follows a turn later, when the page can listen. */
+  #createStage(): Stage | null {
+    try {
+      return new Stage(this.scene, this.camera);
+    } catch (error) {
+      setTimeout(() => this.#onFailure('unsupported', messageOf(error)));
+      return null;
+    }
+  }
+
+  takeContext(): void {
+    const stage = (this.#stage = this.#createStage());
+    if (stage === null) return;
+    const focused = this.shadowRoot!.activeElement !== null;
+    this.#orbit = new Orbit(this.camera, stage.canvas, () => this.#onView());
+    stage.beforeFrame = (time) => this.#orbit!.update(time);
+    stage.afterFrame = () => this.#onFrame();
+    this.#overlay!.setCanvas(stage.canvas);
+    stage.setRunning(this.#near);
+    stage.resize(this.clientWidth, this.clientHeight);
+    for (const name of DRAWN_ATTRIBUTES) this.#apply(name);
+    if (focused) stage.canvas.focus({ preventScroll: true });
+    this.#open();
+  }
+
+  /** The last picture stands for the scene, which is as it was when it comes back. */
+  giveContextBack(): void {
+    const stage = this.#stage;
+    if (stage === null) return;
+    if (this.#firstFrame && this.isConnected) {
+      stage.draw();
+      this.#overlay!.keep(stage.canvas);
+      this.#keptView = this.view;
+    }
     clearTimeout(this.#viewTimer);
     this.#unload();
-    this.#orbit?.dispose();
-    this.#stage?.dispose();
+    this.#orbit!.dispose();
+    stage.dispose();
+    stage.canvas.remove();
     this.#stage = this.#orbit = null;
   }
 
   attributeChangedCallback(name: string): void {
-    if (this.#stage === null) return;
-    if (name === 'src') this.#open();
-    else this.#apply(name);
+    if (this.#overlay === null) return;
+    if (name === 'src') this.#onSource();
+    else if (name === 'loading') this.#wake();
+    else if (name === 'poster' || this.#stage !== null) this.#apply(name);
   }
 
   /** Listens to one of the element's own events; gives its detail. */
   on<Name extends keyof LightwellViewDetails>(name: Name, listener: (detail: LightwellViewDetails[Name]) => void): void {
     this.addEventListener(name, (event) => event instanceof CustomEvent && listener(event.detail as LightwellViewDetails[Name]));
+  }
+
+  #onSource(): void {
+    this.#keptView = null;
+    if (this.#stage === null) {
+      this.#apply('poster');
+      this.#wake();
+    } else this.#open();
+  }
+
+  /** Sees to it that what is to be seen loads: it is near, or is not to wait for that. */
+  #wake(): void {
+    if (!this.isConnected || (this.getAttribute('loading') === 'lazy' && !this.#near)) return;
+    if (this.#stage === null) wantContext(this);
+    else if (this.#loader === null) this.#open();
   }
 
   #open(): void {
@@ -216,11 +235,12 @@ export class LightwellView extends HTMLElement {
     const strategy: Strategy = parseWord(this.getAttribute('strategy'), STRATEGIES);
     const loader = (this.#loader = new LightwellLoader());
     const current = () => loader === this.#loader;
+    this.#overlay!.setProgress({ done: 0, total: 0 });
     const onConnection = (state: ConnectionEvent['state']) => current() && this.#emit('connection', { state });
     loader.setRenderer(stage.renderer).setOptions({ strategy, onConnection }).load(
       src,
       (pack) => this.#show(pack),
-      undefined,
+      ({ loaded, total }) => current() && this.#overlay!.setProgress({ done: loaded, total }),
       (error) => current() && this.#onFailure(reasonOf(error), messageOf(error)),
     );
   }
@@ -232,6 +252,8 @@ export class LightwellView extends HTMLElement {
     this.#pack?.dispose();
     this.#pack = this.#progress = null;
     this.#complete = this.#firstFrame = false;
+    this.#overlay!.setProgress(null);
+    this.#overlay!.say('');
     this.#stage?.invalidate();
   }
 
@@ -242,6 +264,7 @@ export class LightwellView extends HTMLElement {
     pack.addEventListener('geometry', () => stage.invalidateShadows());
     pack.addEventListener('progress', ({ progress }) => {
       this.#progress = progress;
+      this.#overlay!.setProgress(progress.bytes);
       this.#emit('progress', progress);
     });
     pack.addEventListener('connection', ({ state }) => this.#emit('connection', { state }));
@@ -256,9 +279,14 @@ export class LightwellView extends HTMLElement {
   }
 
   /** A file that was replaced is another pack: what has come of the old one is of no use. */
-  #onFailure(reason: FailureEvent['reason'], message: string): void {
+  #onFailure(reason: LightwellViewDetails['error']['reason'], message: string): void {
     this.#emit('error', { reason, message });
-    if (reason !== 'replaced') return;
+    if (reason !== 'replaced') {
+      console.error(`lightwell-view: ${message}`);
+      this.#overlay!.setProgress(null);
+      this.#overlay!.say(message);
+      return;
+    }
     const loader = this.#loader;
     setTimeout(() => loader === this.#loader && this.#load(), this.#replacedPause);
     this.#replacedPause = Math.min(2 * this.#replacedPause, LONGEST_REPLACED_PAUSE);
@@ -271,8 +299,9 @@ export class LightwellView extends HTMLElement {
     if (camera?.fov !== undefined && !this.hasAttribute('field-of-view')) stage.setFieldOfView(camera.fov);
     orbit.frame(pack, stage.fieldOfView);
     this.#apply('camera-orbit');
-    if (this.#wantedView !== null) orbit.view = this.#wantedView;
-    this.#wantedView = null;
+    const view = this.#wantedView ?? this.#keptView;
+    if (view !== null) orbit.view = view;
+    this.#wantedView = this.#keptView = null;
   }
 
   #apply(name: string): void {
@@ -280,12 +309,9 @@ export class LightwellView extends HTMLElement {
     const value = this.getAttribute(name);
     switch (name) {
       case 'poster':
-        return this.#setPoster(value);
-      case 'loading':
-        return this.#loader === null ? this.#open() : undefined;
+        return this.#firstFrame ? undefined : this.#overlay!.setPoster(value);
       case 'camera-controls':
-        this.#orbit!.enabled = value !== null;
-        return;
+        return this.#orbit!.allow(value !== null, value === 'always');
       case 'camera-orbit':
       case 'camera-target':
         return this.#setCamera();
@@ -324,20 +350,11 @@ export class LightwellView extends HTMLElement {
     this.#stage!.invalidateShadows();
   }
 
-  #setPoster(url: string | null): void {
-    this.#poster?.remove();
-    this.#poster = null;
-    if (url === null || this.#firstFrame) return;
-    this.#poster = document.createElement('img');
-    this.#poster.alt = '';
-    this.#poster.src = url;
-    this.shadowRoot!.append(this.#poster);
-  }
-
   #onIntersection(near: boolean): void {
     this.#near = near;
     this.#stage?.setRunning(near);
-    if (near && this.#loader === null && this.getAttribute('loading') === 'lazy') this.#open();
+    if (near) this.#wake();
+    serveContexts();
     this.#pauseOrResume();
   }
 
@@ -350,23 +367,31 @@ export class LightwellView extends HTMLElement {
   #onFrame(): void {
     if (this.#firstFrame || this.#pack === null) return;
     this.#firstFrame = true;
-    this.#poster?.classList.add('gone');
+    this.#overlay!.hidePoster();
     this.#emit('firstframe', null);
   }
 
   #onComplete(): void {
     this.#complete = true;
+    this.#overlay!.setProgress(null);
     this.#emit('complete', null);
+    serveContexts();
   }
 
   #onView(): void {
     this.#stage?.invalidate();
     clearTimeout(this.#viewTimer);
-    this.#viewTimer = setTimeout(() => {
-      if (this.#stage === null || this.#pack === null) return;
-      this.#pack.setView(this.#stage.camera, this.#stage.canvas.height);
-      this.#emit('camera-change', this.#orbit!.view);
-    }, VIEW_REST);
+    this.#viewTimer = setTimeout(() => this.#onRest(), VIEW_REST);
+  }
+
+  #onRest(): void {
+    const stage = this.#stage!;
+    // Its next frame may be long in coming.
+    if (this.#near && this.#orbit!.moving) return this.#onView();
+    stage.sharpen();
+    if (this.#pack === null) return;
+    this.#pack.setView(this.camera, stage.canvas.height);
+    this.#emit('camera-change', this.#orbit!.view);
   }
 
   #emit<Name extends keyof LightwellViewDetails>(name: Name, detail: LightwellViewDetails[Name]): void {

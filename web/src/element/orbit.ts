@@ -6,6 +6,10 @@ import type { LightwellScene } from '../three/scene.js';
 const TURN = Math.PI / 36;
 const STEP = 20;
 const ZOOM = 0.95;
+/** Of a glide so much is left after a second. */
+const GLIDE = 0.05;
+/** The first frame of a movement: the one before it was drawn long ago. Seconds. */
+const FIRST_FRAME = 1 / 60;
 
 /** Where the camera is: it looks from `spherical` around `target` at `target`. Radians and metres. */
 export interface View {
@@ -21,26 +25,44 @@ export class Orbit {
   readonly #controls: OrbitControls;
   readonly #canvas: HTMLCanvasElement;
   readonly #changed: () => void;
+  /** The radius of what is looked at. */
+  #size = 1;
+  /** Every swipe and every turn of the wheel is the camera's; else the page keeps those that scroll it. */
+  #always = false;
+  /** Since the last frame. */
+  #moved = false;
+  #moving = false;
+  #time = 0;
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, changed: () => void) {
     this.#camera = camera;
     this.#canvas = canvas;
     this.#changed = changed;
+    // Before the controls, which take every turn of the wheel.
+    canvas.addEventListener('wheel', (event) => this.#always || canvas.matches(':focus') || event.stopImmediatePropagation());
     this.#controls = new OrbitControls(camera, canvas);
-    this.#controls.enableDamping = true;
     this.#controls.zoomToCursor = true;
-    this.#controls.addEventListener('change', changed);
+    this.#controls.addEventListener('change', () => this.#change());
     canvas.addEventListener('keydown', (event) => this.#key(event));
     canvas.addEventListener('dblclick', () => this.#enabled && this.reset());
+    // A browser scrolls by two fingers where it scrolls by one, unless it is told not to by the first of their moves.
+    canvas.addEventListener('touchmove', (event) => event.touches.length > 1 && this.#enabled && event.preventDefault(), {
+      passive: false,
+    });
   }
 
   get #enabled(): boolean {
     return this.#controls.enabled;
   }
 
-  set enabled(enabled: boolean) {
+  /**
+   * Whether the visitor moves the camera. Unless `always`, a swipe up or down and the wheel scroll the page: a finger turns the scene
+   * when it begins sideways, two fingers move it, and the wheel zooms while the canvas has the focus, as after a click.
+   */
+  allow(enabled: boolean, always: boolean): void {
     this.#controls.enabled = enabled;
-    this.#canvas.style.touchAction = enabled ? 'none' : 'auto';
+    this.#always = always;
+    this.#canvas.style.touchAction = !enabled ? 'auto' : always ? 'none' : 'pan-y';
     this.#canvas.tabIndex = enabled ? 0 : -1;
   }
 
@@ -50,11 +72,12 @@ export class Orbit {
     return { theta, phi, radius, target: this.#controls.target.toArray() };
   }
 
+  /** Any distance is right here: the limits are the visitor's. */
   set view({ theta, phi, radius, target }: View) {
+    this.#stop();
     this.#controls.target.set(...target);
     this.#camera.position.setFromSpherical(new Spherical(radius, phi, theta)).add(this.#controls.target);
-    this.#controls.update();
-    this.#changed();
+    this.#place();
   }
 
   /** Makes the present view the one to which `reset` returns. */
@@ -63,12 +86,31 @@ export class Orbit {
   }
 
   reset(): void {
+    this.#stop();
     this.#controls.reset();
   }
 
-  /** Lets a movement run out. */
-  update(seconds: number): void {
-    this.#controls.update(seconds);
+  /** Moves on to a frame's time, in milliseconds, and says whether it moved since the last one. A glide takes as long with few frames as with many. */
+  update(time: number): boolean {
+    const seconds = this.#moving ? Math.max(0, time - this.#time) / 1000 : FIRST_FRAME;
+    this.#time = time;
+    this.#controls.enableDamping = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+    this.#controls.dampingFactor = 1 - GLIDE ** seconds;
+    this.#controls.update();
+    this.#moving = this.#moved;
+    this.#moved = false;
+    return this.#moving;
+  }
+
+  /** Whether it moves from frame to frame, or is about to. */
+  get moving(): boolean {
+    return this.#moving || this.#moved;
+  }
+
+  /** Ends a glide, for what follows at once. */
+  #stop(): void {
+    this.#controls.enableDamping = false;
+    this.#controls.update();
   }
 
   dispose(): void {
@@ -78,15 +120,13 @@ export class Orbit {
   /** Looks through the pack's first camera, or else at the whole pack; the clipping planes fit its size. */
   frame(pack: LightwellScene, fieldOfView: number): void {
     const sphere = pack.focus.getBoundingSphere(new Sphere());
-    this.#camera.near = sphere.radius / 500;
+    this.#size = sphere.radius;
     this.#camera.far = Math.max(sphere.radius * 50, pack.bounds.getBoundingSphere(new Sphere()).radius * 4);
     this.#controls.maxDistance = sphere.radius * 20;
     this.#controls.minDistance = sphere.radius / 100;
     const packCamera = pack.opening.gltf.cameras[0];
     if (packCamera === undefined) this.#frameWhole(sphere, fieldOfView);
     else this.#lookThrough(packCamera, sphere);
-    this.#camera.updateProjectionMatrix();
-    this.#controls.update();
     this.save();
   }
 
@@ -97,19 +137,41 @@ export class Orbit {
 
   /** The target lies on the camera's axis, where that passes the middle of the pack. */
   #lookThrough(camera: Camera, { center, radius }: Sphere): void {
+    this.#stop();
     camera.updateWorldMatrix(true, false);
     camera.getWorldPosition(this.#camera.position);
     const axis = camera.getWorldDirection(new Vector3());
     const depth = Math.max(center.clone().sub(this.#camera.position).dot(axis), radius / 4);
     this.#controls.target.copy(this.#camera.position).addScaledVector(axis, depth);
+    this.#place();
+  }
+
+  /** Lets the camera stay where it was put, and see from there. */
+  #place(): void {
+    const controls = this.#controls;
+    const distance = controls.getDistance();
+    controls.maxDistance = Math.max(controls.maxDistance, distance);
+    controls.minDistance = Math.min(controls.minDistance, distance);
+    this.#camera.far = Math.max(this.#camera.far, 3 * distance);
+    controls.update();
+    this.#change();
+  }
+
+  /** What is near a camera that is far away may be clipped: depths have so many bits. */
+  #change(): void {
+    this.#moved = true;
+    this.#camera.near = Math.max(this.#size, this.#controls.getDistance()) / 500;
+    this.#camera.updateProjectionMatrix();
+    this.#changed();
   }
 
   #key(event: KeyboardEvent): void {
     if (!this.#enabled || event.altKey || event.ctrlKey || event.metaKey) return;
     const action = (event.shiftKey ? MOVES : TURNS)[event.key] ?? OTHERS[event.key];
-    if (action === undefined) return;
-    action(this.#controls);
-    this.#changed();
+    if (event.key === 'Home') this.reset();
+    else if (action === undefined) return;
+    else action(this.#controls);
+    this.#change();
     event.preventDefault();
   }
 }
@@ -134,5 +196,4 @@ const OTHERS: Keys = {
   '+': (controls) => controls.dollyIn(ZOOM),
   '=': (controls) => controls.dollyIn(ZOOM),
   '-': (controls) => controls.dollyOut(ZOOM),
-  Home: (controls) => controls.reset(),
 };

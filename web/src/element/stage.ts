@@ -10,15 +10,16 @@ const SHADOW_INTERVAL = 500;
 const MOST_PIXEL_RATIO = 2;
 /** Frames further apart than this are not one animation, in milliseconds. */
 const PAUSE = 250;
+/** A camera that moves is shown with half the pixels, in width and height, when a frame takes longer than this; milliseconds. */
+const SLOW_FRAME = 80;
+const LEAST_SHARPNESS = 0.25;
 
 /** A canvas with renderer, scene and camera that draws a frame only when one is asked for. */
 export class Stage {
   readonly canvas = document.createElement('canvas');
   readonly renderer: WebGLRenderer;
-  readonly scene = new Scene();
-  readonly camera = new PerspectiveCamera();
-  /** Called before a frame is drawn, with the time since the last one in seconds. */
-  beforeFrame: (seconds: number) => void = () => {};
+  /** Called before a frame is drawn, with its time in milliseconds; says whether the camera is on its way. */
+  beforeFrame: (time: number) => boolean = () => false;
   afterFrame: () => void = () => {};
   /** The vertical field of view of a canvas that is at least as wide as high, in degrees. */
   fieldOfView = 45;
@@ -28,11 +29,17 @@ export class Stage {
   #running = true;
   #lastFrame = -Infinity;
   #interval = Infinity;
+  #moving = false;
+  /** Of the canvas' full width and height; less than 1 while the camera moves and the GPU is slow. */
+  #sharpness = 1;
   #shadowTime = -Infinity;
   #shadowTimer: ReturnType<typeof setTimeout> | undefined;
 
   /** Throws where there is no WebGL2. */
-  constructor() {
+  constructor(
+    readonly scene: Scene,
+    readonly camera: PerspectiveCamera,
+  ) {
     const context = this.canvas.getContext('webgl2', { alpha: true, antialias: true, stencil: false });
     if (context === null) throw new Error('This browser has no WebGL2, which it takes to show a 3D scene.');
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
@@ -65,8 +72,8 @@ export class Stage {
   /** Fits the canvas to its place on the page and the field of view to the canvas: a narrow one shows no less across. */
   resize(width: number, height: number): void {
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO));
     this.renderer.setSize(width, height, false);
+    this.#setSharpness(1);
     this.camera.aspect = width / height;
     this.setFieldOfView(this.fieldOfView);
     this.draw();
@@ -116,11 +123,26 @@ export class Stage {
     this.#drawing.run();
   }
 
+  /** Shows all pixels again: the camera rests. */
+  sharpen(): void {
+    if (this.#sharpness === 1) return;
+    this.#setSharpness(1);
+    this.invalidate();
+  }
+
+  #setSharpness(sharpness: number): void {
+    this.#sharpness = sharpness;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXEL_RATIO) * sharpness);
+  }
+
   #draw(time: number): void {
     const interval = time - this.#lastFrame;
     this.#interval = interval > PAUSE || this.#interval === Infinity ? interval : 0.9 * this.#interval + 0.1 * interval;
     this.#lastFrame = time;
-    this.beforeFrame(Math.min(interval, PAUSE) / 1000);
+    const moved = this.#moving;
+    this.#moving = this.beforeFrame(time);
+    const slow = moved && this.#moving && interval > SLOW_FRAME;
+    if (slow && this.#sharpness > LEAST_SHARPNESS) this.#setSharpness(this.#sharpness / 2);
     this.renderer.render(this.scene, this.camera);
     this.afterFrame();
   }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Share } from '../core/protocol.js';
+
+const STYLE = `
+  :host { display: block; position: relative; min-width: 1px; min-height: 150px; contain: content; }
+  :host([hidden]), [hidden] { display: none !important; }
+  canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline-offset: -2px; }
+  .poster { object-fit: cover; transition: opacity 0.4s; }
+  .gone { opacity: 0; pointer-events: none; }
+  .bar { position: absolute; inset: auto 0 0; height: 3px; background: #8884; }
+  .bar i { display: block; height: 100%; background: #e8a33d; transform-origin: left; transition: transform 0.2s; }
+  .message { position: absolute; inset: auto 0 0; padding: 8px 12px; background: #fffe; color: #222; font: 14px/1.4 system-ui, sans-serif;
+    overflow-wrap: anywhere; }
+  @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
+`;
+let sheet: CSSStyleSheet | undefined;
+
+/** What an element has over its picture: a poster before it, how much has come, and what went wrong. */
+export class Overlay {
+  readonly #root: ShadowRoot;
+  readonly #bar = make('div', 'bar');
+  readonly #progress = make('slot');
+  readonly #message = make('div', 'message');
+  readonly #error = make('slot');
+  #poster: HTMLElement | null = null;
+
+  /** Content of the page's own takes the place of the bar and of the words, in the slots "progress" and "error". */
+  constructor(root: ShadowRoot) {
+    this.#root = root;
+    // A page's content security policy may forbid styles in the text of a document.
+    sheet ??= new CSSStyleSheet();
+    sheet.replaceSync(STYLE);
+    root.adoptedStyleSheets = [sheet];
+    this.#bar.role = 'progressbar';
+    this.#bar.append(make('i'));
+    this.#message.role = 'alert';
+    this.#progress.name = 'progress';
+    this.#progress.append(this.#bar);
+    this.#error.name = 'error';
+    this.#error.append(this.#message);
+    root.append(this.#progress, this.#error);
+    this.setProgress(null);
+    this.say('');
+  }
+
+  /** A picture's URL, or a picture, until the first frame. */
+  setPoster(poster: string | HTMLElement | null): void {
+    this.#poster?.remove();
+    this.#poster = null;
+    if (poster === null) return;
+    const picture = typeof poster === 'string' ? Object.assign(make('img'), { src: poster, alt: '' }) : poster;
+    picture.classList.add('poster');
+    this.#poster = picture;
+    this.#progress.before(picture);
+  }
+
+  /** Makes a canvas' present picture the poster. */
+  keep(canvas: HTMLCanvasElement): void {
+    const still = canvas.cloneNode() as HTMLCanvasElement;
+    still.getContext('2d')!.drawImage(canvas, 0, 0);
+    this.setPoster(still);
+  }
+
+  hidePoster(): void {
+    this.#poster?.classList.add('gone');
+  }
+
+  /** How much has come; null hides the bar. */
+  setProgress(share: Share | null): void {
+    this.#progress.hidden = share === null;
+    const part = share === null || share.total === 0 ? 0 : share.done / share.total;
+    this.#bar.ariaValueNow = String(Math.round(100 * part));
+    (this.#bar.firstElementChild as HTMLElement).style.transform = `scaleX(${part})`;
+  }
+
+  /** No words hide the message. */
+  say(words: string): void {
+    this.#message.textContent = words;
+    this.#error.hidden = words === '';
+  }
+
+  /** Puts a canvas below all of it. */
+  setCanvas(canvas: HTMLCanvasElement): void {
+    this.#root.prepend(canvas);
+  }
+}
+
+function make<Name extends keyof HTMLElementTagNameMap>(name: Name, className = ''): HTMLElementTagNameMap[Name] {
+  return Object.assign(document.createElement(name), { className });
+}
