@@ -16,11 +16,15 @@ const TYPES = {
 /**
  * A plain web server for tests. `routes` maps a path, or the beginning of one that ends in a slash, to a file or folder, or to
  * the text of an answer. Options: `ranges` false answers 200 to every request; `wasmType` is the content type of WebAssembly;
- * `cors` says of a request whether pages of other origins may read the answer; `port` 0 takes any.
+ * `cors` says of a request whether pages of other origins may read the answer; `headers` go with each; `port` 0 takes any.
  */
-export async function startStaticServer(routes, { ranges = true, wasmType = TYPES['.wasm'], cors = () => true, port = 0 } = {}) {
+export async function startStaticServer(
+  routes,
+  { ranges = true, wasmType = TYPES['.wasm'], cors = () => true, headers = {}, port = 0 } = {},
+) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://localhost').pathname);
+    for (const [name, value] of Object.entries(headers)) response.setHeader(name, value);
     void answer(routes, { ranges, wasmType, cors }, path, request, response);
   });
   await new Promise((resolve) => server.listen(port, '127.0.0.1', resolve));

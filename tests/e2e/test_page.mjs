@@ -34,3 +34,11 @@ export async function scriptPage(path) {
     '/script.js': { text: await bundle(path), type: 'text/javascript' },
   };
 }
+
+/** Routes of a page at / whose body has <lightwell-view> in it; `script` is where its script lies. */
+export async function elementPage(body, script = 'script.js') {
+  const routes = await scriptPage('tests/e2e/pages/element.ts');
+  const html = `<!doctype html><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+    <script type="module" src="${script}"></script><body>${body}`;
+  return { ...routes, ...CLIENT, '/': { text: html, type: 'text/html' } };
+}
