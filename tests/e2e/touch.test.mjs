@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
+import { openFingers } from './fingers.mjs';
 import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startServe } from './servers.mjs';
@@ -9,8 +10,6 @@ import { complete } from './view.mjs';
 
 const folder = temporaryFolder();
 const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 1_000);
-/** Moves of a finger on its way. */
-const STEPS = 5;
 /** Rounding of sines and cosines, relative. */
 const SAME = 1e-6;
 
@@ -23,18 +22,7 @@ async function openPhone(t) {
   const { page, errors } = await forTest(t, openPage(browser, { ...size, hasTouch: true }));
   await page.goto(server.url);
   await complete(page);
-  const session = await page.context().newCDPSession(page);
-  const touch = (type, fingers) =>
-    session.send('Input.dispatchTouchEvent', {
-      type,
-      touchPoints: fingers.map(([x, y], id) => ({ x: x * size.width, y: y * size.height, id })),
-    });
-  const move = async (...ways) => {
-    const at = (step) => ways.map(({ from, to }) => from.map((start, axis) => start + ((to[axis] - start) * step) / STEPS));
-    await touch('touchStart', at(0));
-    for (let step = 1; step <= STEPS; step++) await touch('touchMove', at(step));
-    await touch('touchEnd', []);
-  };
+  const { move } = await openFingers(page, size);
   const view = () => page.evaluate(() => document.querySelector('lightwell-view').view);
   return { move, view, errors };
 }

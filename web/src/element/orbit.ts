@@ -29,6 +29,8 @@ export class Orbit {
   #size = 1;
   /** Every swipe and every turn of the wheel is the camera's; else the page keeps those that scroll it. */
   #always = false;
+  /** Where a finger began, until it has gone sideways or another one has joined it. */
+  #swipe: PointerEvent | null = null;
   /** Since the last frame. */
   #moved = false;
   #moving = false;
@@ -45,6 +47,8 @@ export class Orbit {
     this.#controls.addEventListener('change', () => this.#change());
     canvas.addEventListener('keydown', (event) => this.#key(event));
     canvas.addEventListener('dblclick', () => this.#enabled && this.reset());
+    canvas.addEventListener('pointerdown', (event) => (this.#swipe = event.pointerType === 'touch' && event.isPrimary ? event : null));
+    canvas.addEventListener('pointermove', (event) => this.#scrolls(event) && event.stopPropagation());
     // A browser scrolls by two fingers where it scrolls by one, unless it is told not to by the first of their moves.
     canvas.addEventListener('touchmove', (event) => event.touches.length > 1 && this.#enabled && event.preventDefault(), {
       passive: false,
@@ -163,6 +167,13 @@ export class Orbit {
     this.#camera.near = Math.max(this.#size, this.#controls.getDistance()) / 500;
     this.#camera.updateProjectionMatrix();
     this.#changed();
+  }
+
+  /** Whether a move belongs to a swipe up or down: the browser says so only after some of them. */
+  #scrolls({ clientX, clientY }: PointerEvent): boolean {
+    const from = this.#swipe;
+    if (from === null || this.#always || Math.abs(clientX - from.clientX) > Math.abs(clientY - from.clientY)) this.#swipe = null;
+    return this.#swipe !== null;
   }
 
   #key(event: KeyboardEvent): void {
