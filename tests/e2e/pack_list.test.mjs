@@ -40,7 +40,8 @@ async function shown(page) {
 const ROOM = ['packs/0.lw.glb', 'a room · Lightwell', 'a room.lw.glb'];
 const LUCY = ['packs/1.lw.glb', 'lucy · Lightwell', 'lucy.lw.glb'];
 
-for (const [hash, expected] of [['', ROOM], ['#pack=', ROOM], ['#pack=a%20room', ROOM], ['#pack=lucy', LUCY], ['#pack=lucy.lw.glb', LUCY]])
+for (const [hash, expected] of [['', ROOM], ['#pack=', ROOM], ['#pack=a%20room', ROOM], ['#pack=lucy', LUCY], ['#pack=lucy.lw.glb', LUCY],
+  ['?pack=lucy', LUCY], ['?pack=lucy#pack=a%20room', ROOM]])
   test(`an address that ends in '${hash}' shows ${expected[2]} and names it`, async (t) => {
     const { page } = await openHash(t, hash);
     assert.deepEqual(await shown(page), expected);
@@ -67,6 +68,12 @@ const VIEW = [0.5, 1.25, 2.5, 0.1, 0.2, 0.3];
 
 test('the view of an address is shown', async (t) => {
   const { page } = await openHash(t, `#pack=lucy&view=${VIEW}`);
+  assert.deepEqual(await shown(page), LUCY);
+  assert.deepEqual(await view(page), VIEW);
+});
+
+test('a view in the query is shown, too', async (t) => {
+  const { page } = await openHash(t, `?pack=lucy&view=${VIEW}`);
   assert.deepEqual(await shown(page), LUCY);
   assert.deepEqual(await view(page), VIEW);
 });

@@ -2,7 +2,7 @@
 import type { LightwellView } from '../element/lightwell_view.js';
 import type { View } from '../element/orbit.js';
 
-/** What the URL's fragment says: #pack=NAME&view=theta,phi,radius,x,y,z */
+/** What the URL's fragment says: #pack=NAME&view=theta,phi,radius,x,y,z. Without it ?pack=NAME and &view= are taken. */
 export interface Hash {
   /** The pack that it named at first. */
   readonly wanted: string | null;
@@ -14,7 +14,7 @@ export interface Hash {
 
 /** Keeps pack and camera in the URL, so that a link shows what the sender saw. A URL that the user changes is loaded. */
 export function bindHash(element: LightwellView): Hash {
-  const parameters = new URLSearchParams(location.hash.slice(1));
+  const parameters = new URLSearchParams(location.hash.slice(1) || location.search);
   let pack = '';
   let written = location.href;
   const write = (camera: View | null) => {
