@@ -24,8 +24,8 @@ export async function launch(renderer = LLVMPIPE) {
  * A page of 320 x 180. `errors` collects what its console calls an error, but for connections that were lost or refused, which
  * the browser reports there and which tests provoke.
  */
-export async function openPage(browser, { width = 320, height = 180, hasTouch = false, init = undefined } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: 1, hasTouch });
+export async function openPage(browser, { width = 320, height = 180, hasTouch = false, isMobile = false, init = undefined } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, deviceScaleFactor: 1, hasTouch, isMobile });
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE);
   const errors = [];
