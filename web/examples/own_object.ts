@@ -48,4 +48,4 @@ addEventListener('pointermove', (event) => {
 });
 draw(place);
 
-Object.assign(globalThis, { room, scene, knot, camera, renderer, draw });
+Object.assign(globalThis, { LightwellLoader, room, scene, knot, camera, renderer, draw });

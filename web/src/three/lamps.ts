@@ -95,6 +95,27 @@ function colored(light: Lamp, rgb: [number, number, number] = [0, 0, 0], factor 
   return light;
 }
 
+/** Fits lamps to a pack that has become so many times as large: each of its places keeps its light. */
+export function scaleLamps(lamps: Lamp[], ratio: number): void {
+  for (const light of lamps) {
+    const { shadow } = light;
+    if (light instanceof DirectionalLight) spread(light, ratio * light.shadow.camera.right);
+    else {
+      light.intensity *= ratio * ratio;
+      light.distance *= ratio;
+    }
+    shadow.normalBias *= ratio;
+    shadow.camera.near *= ratio;
+    shadow.camera.far *= ratio;
+    shadow.camera.updateProjectionMatrix();
+  }
+}
+
+/** A sun's shadows reach so far from their middle. */
+function spread({ shadow }: DirectionalLight, radius: number): void {
+  Object.assign(shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius });
+}
+
 /** The area that a lamp shows to a point on its axis, in square metres. */
 function areaOf({ u, v, radius = 0 }: LampDefinition): number {
   if (u === undefined || v === undefined) return Math.PI * radius * radius;
@@ -128,7 +149,8 @@ function castShadow(light: Lamp, scene: Sphere): void {
   shadow.normalBias = 0.004 * scene.radius;
   if (light instanceof DirectionalLight) {
     const { radius } = scene;
-    Object.assign(light.shadow.camera, { left: -radius, right: radius, top: radius, bottom: -radius, near: radius, far: 3 * radius });
+    spread(light, radius);
+    Object.assign(light.shadow.camera, { near: radius, far: 3 * radius });
     return;
   }
   if (light instanceof PointLight) shadow.mapSize.divideScalar(4);

@@ -73,7 +73,8 @@ export class LightwellLoader extends Loader<LightwellScene> {
     onProgress?: (event: globalThis.ProgressEvent) => void,
   ): Promise<LightwellScene> {
     const renderer = this.#renderer;
-    if (renderer === null) throw new Error('LightwellLoader: call setRenderer before loading');
+    if (renderer === null || !('isWebGLRenderer' in renderer))
+      throw new Error('LightwellLoader: call setRenderer with a WebGLRenderer before loading; WebGPURenderer cannot show packs');
     const connection = new PackConnection(url, this.#options);
     let scene: LightwellScene | null = null;
     try {

@@ -31,7 +31,7 @@ import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
 import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
-import { createLamps, type Lamp } from './lamps.js';
+import { createLamps, type Lamp, scaleLamps } from './lamps.js';
 import { MeshRefinement } from './mesh_refinement.js';
 import { mapsOf, materialsOf, meshesIn } from './meshes.js';
 import type { Opening } from './opening.js';
@@ -60,6 +60,9 @@ export interface SceneOptions {
   ambientOcclusion?: boolean;
 }
 
+/** Of a matrix that only turns, relative: rounding. */
+const SAME_SCALE = 1e-6;
+
 /**
  * A pack in a three.js scene. It refines itself, whoever draws it: in each of the browser's animation frames at most 256 KB go to
  * the renderer's GPU, into buffers and textures that have their final sizes from the start; a picture is worth drawing only at a
@@ -87,6 +90,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   #received = false;
   #complete = false;
   #wireframe = false;
+  #scale = 1;
 
   private constructor(
     opening: Opening,
@@ -161,6 +165,19 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** Lets what matters most to this camera's picture come first. Call it when the view has changed much, not each frame. */
   setView(camera: Camera, heightInPixels: number): void {
     this.#connection.setWeights(viewWeights(this.opening, this.grids, camera, heightInPixels));
+  }
+
+  override updateMatrixWorld(force?: boolean): void {
+    super.updateMatrixWorld(force);
+    const scale = Math.cbrt(Math.abs(this.matrixWorld.determinant()));
+    if (scale === 0 || Math.abs(scale / this.#scale - 1) < SAME_SCALE) return;
+    scaleLamps(this.lamps, scale / this.#scale);
+    this.#scale = scale;
+  }
+
+  /** Throws: a stream fills one object. */
+  override clone(): never {
+    throw new Error('LightwellScene: a pack cannot be cloned, since it streams. Load it again: the browser has kept its file.');
   }
 
   /** Ends the streaming and gives back what the GPU holds. */
