@@ -29,6 +29,9 @@ const bundles = await Promise.all([
   bundle({ entryPoints: { worker: 'src/core/worker.ts' } }),
   bundle({
     entryPoints: { page: 'src/page/main.ts', style: 'src/page/style.css' },
+    splitting: true,
+    chunkNames: 'page-[name]',
+    loader: { '.html': 'text' },
     mangleProps: PRIVATE_PROPERTIES,
     define: ABSENT,
   }),

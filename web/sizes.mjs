@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Prints how large the page is in brotli, in bytes: all of it, and the part that is Lightwell's (three.js and its loader and
-// controls left out).   node sizes.mjs [--json]
-import { readFile } from 'node:fs/promises';
+// Prints how large the page is in brotli, in bytes: all that is loaded before the first picture, the part of it that is Lightwell's
+// (three.js and its loader and controls left out), and what is fetched later, when it is asked for.   node sizes.mjs [--json]
+import { readdir, readFile } from 'node:fs/promises';
 import { brotliCompressSync } from 'node:zlib';
 import { bundle } from './bundle.mjs';
 
 process.chdir(import.meta.dirname);
-const compressed = async (file) => brotliCompressSync(await readFile(file)).length;
-const [own] = await bundle({ entryPoints: ['src/page/main.ts'], external: ['three', 'three/*'] });
-const [worker, wasm, page, html, style] = await Promise.all(
-  ['worker.js', 'lightwell.wasm', 'page.js', 'index.html', 'style.css'].map((name) => compressed(`dist/${name}`)),
-);
-const script = brotliCompressSync(own.text).length;
-const sizes = { script, worker, wasm, withoutThree: script + worker + wasm, whole: page + worker + wasm + html + style };
+const sizeOf = (text) => brotliCompressSync(text).length;
+const compressed = async (...files) => {
+  const texts = await Promise.all(files.map((file) => readFile(`dist/${file}`)));
+  return texts.reduce((sum, text) => sum + sizeOf(text), 0);
+};
+const [own] = await bundle({
+  entryPoints: ['src/page/main.ts'],
+  external: ['three', 'three/*'],
+  splitting: true,
+  loader: { '.html': 'text' },
+});
+const script = sizeOf(own.text);
+const worker = await compressed('worker.js');
+const wasm = await compressed('lightwell.wasm');
+const whole = worker + wasm + (await compressed('page.js', 'index.html', 'style.css'));
+const later = await compressed(...(await readdir('dist')).filter((name) => /^page-.*\.js$/.test(name)));
+const sizes = { script, worker, wasm, withoutThree: script + worker + wasm, whole, later };
 if (process.argv.includes('--json')) console.log(JSON.stringify(sizes));
 else for (const [name, bytes] of Object.entries(sizes)) console.log(`${name.padEnd(14)}${bytes}`);

@@ -88,7 +88,7 @@ test('a clone of a pack is refused in words', async (t) => {
       return error.message;
     }
   });
-  assert.match(message, /cannot be cloned.*Load it again/);
+  assert.match(message, /cannot be cloned.*load it again/);
 });
 
 test('a renderer that cannot show packs is refused in words', async (t) => {

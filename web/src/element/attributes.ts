@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { View } from './orbit.js';
 
 /** The attributes of <lightwell-view> with what they may say; web/README.md explains each. */
 export interface LightwellViewAttributes {
@@ -43,9 +44,17 @@ export function parseQuantity(text: string): number | null {
 }
 
 /** Three quantities between spaces; null if there are not three. */
-export function parseTriple(text: string | null): [number, number, number] | null {
+function parseTriple(text: string | null): [number, number, number] | null {
   const parts = text?.trim().split(/\s+/).map(parseQuantity) ?? [];
   return parts.length === 3 && parts.every((part) => part !== null) ? (parts as [number, number, number]) : null;
+}
+
+/** The view that the camera's two attributes say, the rest as it is now; null when they say nothing. */
+export function parseView(orbit: string | null, target: string | null, now: View): View | null {
+  const [theta = now.theta, phi = now.phi, radius = now.radius] = parseTriple(orbit) ?? [];
+  const place = parseTriple(target);
+  if (place === null && parseTriple(orbit) === null) return null;
+  return { theta, phi, radius, target: place ?? now.target };
 }
 
 /** One of the words, the first of them for anything else. */

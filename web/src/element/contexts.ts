@@ -30,17 +30,18 @@ export function dropContext(holder: ContextHolder): void {
   serveContexts();
 }
 
+const nearFirst = (a: ContextHolder, b: ContextHolder) => Number(b.near) - Number(a.near);
+
 /** Those near the screen come first, and before those that can do without. Call it when a holder's `near` or `spare` has changed. */
 export function serveContexts(): void {
-  const nearest = (wanted: boolean) => (a: ContextHolder, b: ContextHolder) => (Number(b.near) - Number(a.near)) * (wanted ? 1 : -1);
-  for (const next of [...waiting].sort(nearest(true))) {
+  for (const next of [...waiting].sort(nearFirst)) {
     if (holders.size >= most()) {
-      const spare = [...holders].filter((holder) => holder.spare).sort(nearest(false))[0];
+      const spare = [...holders].filter((holder) => holder.spare).sort(nearFirst).at(-1);
       if (spare === undefined || !next.near) return;
       holders.delete(spare);
       spare.giveContextBack();
     }
-    if (!waiting.delete(next)) continue;
+    waiting.delete(next);
     holders.add(next);
     next.takeContext();
   }

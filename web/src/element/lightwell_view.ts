@@ -4,9 +4,10 @@ import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
 import type { LightwellScene } from '../three/scene.js';
-import { DRAWN_ATTRIBUTES, LIGHTS, parseQuantity, parseTriple, parseWord, STRATEGIES, TONES } from './attributes.js';
+import { DRAWN_ATTRIBUTES, LIGHTS, parseQuantity, parseView, parseWord, STRATEGIES, TONES } from './attributes.js';
 import { type ContextHolder, dropContext, serveContexts, wantContext } from './contexts.js';
 import type { LightwellViewDetails, Listens } from './events.js';
+import { cameraNamed, cameraNames } from './file_cameras.js';
 import { Orbit, type View } from './orbit.js';
 import { Overlay } from './overlay.js';
 import { Stage } from './stage.js';
@@ -98,6 +99,18 @@ export class LightwellView extends Base implements ContextHolder {
     else if (this.#orbit !== null) this.#orbit.view = view;
   }
 
+  /** The names of the pack's cameras, in the file's order. */
+  get cameraNames(): string[] {
+    return cameraNames(this.#pack);
+  }
+
+  /** Looks through the pack's camera of a name. Throws when it has none. */
+  lookThrough(name: string): void {
+    const camera = cameraNamed(this.#pack, name);
+    this.#stage?.takeFieldOfView(camera);
+    this.#orbit?.lookThrough(camera, this.#pack!);
+  }
+
   /** Draws a frame now, in the caller's turn. */
   draw(): void {
     this.#stage?.draw();
@@ -153,19 +166,14 @@ export class LightwellView extends Base implements ContextHolder {
     return !this.#near || (this.#complete && !this.matches(':hover, :focus-within'));
   }
 
-  /** Null where the browser cannot draw; the error event follows a turn later, when the page can listen. */
-  #createStage(): Stage | null {
-    try {
-      return new Stage(this.scene, this.camera);
-    } catch (error) {
-      setTimeout(() => this.#onFailure('unsupported', messageOf(error)));
-      return null;
-    }
-  }
-
   takeContext(): void {
-    const stage = (this.#stage = this.#createStage());
-    if (stage === null) return;
+    try {
+      this.#stage = new Stage(this.scene, this.camera);
+    } catch (error) {
+      // A turn later the page can listen.
+      return void setTimeout(() => this.#onFailure('unsupported', messageOf(error)));
+    }
+    const stage = this.#stage;
     const focused = this.shadowRoot!.activeElement !== null;
     this.#orbit = new Orbit(this.camera, stage.canvas, () => this.#onView());
     stage.beforeFrame = (time) => this.#orbit!.update(time);
@@ -209,10 +217,9 @@ export class LightwellView extends Base implements ContextHolder {
 
   #onSource(): void {
     this.#keptView = null;
-    if (this.#stage === null) {
-      this.#apply('poster');
-      this.#wake();
-    } else this.#open();
+    if (this.#stage !== null) return this.#open();
+    this.#apply('poster');
+    this.#wake();
   }
 
   /** Sees to it that what is to be seen loads: it is near, or is not to wait for that. */
@@ -252,7 +259,6 @@ export class LightwellView extends Base implements ContextHolder {
     this.#pack?.dispose();
     this.#pack = this.#progress = null;
     this.#complete = this.#firstFrame = false;
-    this.#overlay!.setProgress(null);
     this.#overlay!.say('');
     this.#stage?.invalidate();
   }
@@ -283,9 +289,7 @@ export class LightwellView extends Base implements ContextHolder {
     this.#emit('error', { reason, message });
     if (reason !== 'replaced') {
       console.error(`lightwell-view: ${message}`);
-      this.#overlay!.setProgress(null);
-      this.#overlay!.say(message);
-      return;
+      return this.#overlay!.say(message);
     }
     const loader = this.#loader;
     setTimeout(() => loader === this.#loader && this.#load(), this.#replacedPause);
@@ -293,14 +297,12 @@ export class LightwellView extends Base implements ContextHolder {
   }
 
   #frame(pack: LightwellScene): void {
-    const stage = this.#stage!;
-    const orbit = this.#orbit!;
-    const camera = pack.opening.gltf.cameras[0] as { fov?: number } | undefined;
-    if (camera?.fov !== undefined && !this.hasAttribute('field-of-view')) stage.setFieldOfView(camera.fov);
-    orbit.frame(pack, stage.fieldOfView);
+    const camera = pack.opening.gltf.cameras[0];
+    if (!this.hasAttribute('field-of-view')) this.#stage!.takeFieldOfView(camera);
+    this.#orbit!.frame(pack, camera, this.#stage!.fieldOfView);
     this.#apply('camera-orbit');
     const view = this.#wantedView ?? this.#keptView;
-    if (view !== null) orbit.view = view;
+    if (view !== null) this.#orbit!.view = view;
     this.#wantedView = this.#keptView = null;
   }
 
@@ -335,13 +337,10 @@ export class LightwellView extends Base implements ContextHolder {
 
   #setCamera(): void {
     if (this.#pack === null) return;
-    const orbit = this.#orbit!;
-    const [theta, phi, radius] = parseTriple(this.getAttribute('camera-orbit')) ?? [];
-    const target = parseTriple(this.getAttribute('camera-target'));
-    if (theta === undefined && target === null) return;
-    const now = orbit.view;
-    orbit.view = { theta: theta ?? now.theta, phi: phi ?? now.phi, radius: radius ?? now.radius, target: target ?? now.target };
-    orbit.save();
+    const view = parseView(this.getAttribute('camera-orbit'), this.getAttribute('camera-target'), this.#orbit!.view);
+    if (view === null) return;
+    this.#orbit!.view = view;
+    this.#orbit!.save();
   }
 
   #setLight(light: (typeof LIGHTS)[number]): void {
@@ -360,8 +359,7 @@ export class LightwellView extends Base implements ContextHolder {
 
   /** Asks for nothing that is not about to be seen. */
   #pauseOrResume(): void {
-    if (this.#paused || !this.#near) this.#pack?.pause();
-    else this.#pack?.resume();
+    this.#pack?.[this.#paused || !this.#near ? 'pause' : 'resume']();
   }
 
   #onFrame(): void {

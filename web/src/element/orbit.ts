@@ -121,16 +121,15 @@ export class Orbit {
     this.#controls.dispose();
   }
 
-  /** Looks through the pack's first camera, or else at the whole pack; the clipping planes fit its size. */
-  frame(pack: LightwellScene, fieldOfView: number): void {
-    const sphere = pack.focus.getBoundingSphere(new Sphere());
+  /** Shows a pack from where its file's camera stands or, where there is none, all of it: `reset` returns there. */
+  frame(pack: LightwellScene, camera: Camera | undefined, fieldOfView: number): void {
+    const sphere = sphereOf(pack);
     this.#size = sphere.radius;
     this.#camera.far = Math.max(sphere.radius * 50, pack.bounds.getBoundingSphere(new Sphere()).radius * 4);
     this.#controls.maxDistance = sphere.radius * 20;
     this.#controls.minDistance = sphere.radius / 100;
-    const packCamera = pack.opening.gltf.cameras[0];
-    if (packCamera === undefined) this.#frameWhole(sphere, fieldOfView);
-    else this.#lookThrough(packCamera, sphere);
+    if (camera === undefined) this.#frameWhole(sphere, fieldOfView);
+    else this.lookThrough(camera, pack);
     this.save();
   }
 
@@ -140,7 +139,8 @@ export class Orbit {
   }
 
   /** The target lies on the camera's axis, where that passes the middle of the pack. */
-  #lookThrough(camera: Camera, { center, radius }: Sphere): void {
+  lookThrough(camera: Camera, pack: LightwellScene): void {
+    const { center, radius } = sphereOf(pack);
     this.#stop();
     camera.updateWorldMatrix(true, false);
     camera.getWorldPosition(this.#camera.position);
@@ -186,6 +186,8 @@ export class Orbit {
     event.preventDefault();
   }
 }
+
+const sphereOf = ({ focus }: LightwellScene) => focus.getBoundingSphere(new Sphere());
 
 type Keys = Record<string, (controls: OrbitControls) => void>;
 

@@ -2,16 +2,15 @@
 import type { Share } from '../core/protocol.js';
 
 const STYLE = `
-  :host { display: block; position: relative; min-width: 1px; min-height: 150px; contain: content; }
-  :host([hidden]), [hidden] { display: none !important; }
-  canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; display: block; outline-offset: -2px; }
-  .poster { object-fit: cover; transition: opacity 0.4s; }
-  .gone { opacity: 0; pointer-events: none; }
-  .bar { position: absolute; inset: auto 0 0; height: 3px; background: #8884; }
-  .bar i { display: block; height: 100%; background: #e8a33d; transform-origin: left; transition: transform 0.2s; }
-  .message { position: absolute; inset: auto 0 0; padding: 8px 12px; background: #fffe; color: #222; font: 14px/1.4 system-ui, sans-serif;
-    overflow-wrap: anywhere; }
-  @media (prefers-reduced-motion: reduce) { * { transition: none !important; } }
+:host { display: block; position: relative; min-width: 1px; min-height: 150px; contain: content; }
+:host([hidden]), [hidden] { display: none !important; }
+canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; outline-offset: -2px; }
+.poster { object-fit: cover; transition: opacity 0.4s; }
+.gone { opacity: 0; pointer-events: none; }
+div { position: absolute; inset: auto 0 0; }
+.bar { height: 3px; background: #8884; }
+.bar i { display: block; height: 100%; background: #e8a33d; transform-origin: left; }
+.message { padding: 8px 12px; background: #fffe; color: #222; font: 14px/1.4 system-ui; overflow-wrap: anywhere; }
 `;
 let sheet: CSSStyleSheet | undefined;
 
@@ -39,7 +38,6 @@ export class Overlay {
     this.#error.name = 'error';
     this.#error.append(this.#message);
     root.append(this.#progress, this.#error);
-    this.setProgress(null);
     this.say('');
   }
 
@@ -73,8 +71,9 @@ export class Overlay {
     (this.#bar.firstElementChild as HTMLElement).style.transform = `scaleX(${part})`;
   }
 
-  /** No words hide the message. */
+  /** What went wrong: no more will come. No words hide the message. */
   say(words: string): void {
+    this.setProgress(null);
     this.#message.textContent = words;
     this.#error.hidden = words === '';
   }

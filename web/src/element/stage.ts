@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { LinearToneMapping, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
+import { type Camera, LinearToneMapping, NeutralToneMapping, PCFShadowMap, PerspectiveCamera, Scene, WebGLRenderer } from 'three';
 import { FRAME, FrameScheduler, type FrameTask } from '../three/frame_scheduler.js';
 
 export type Tone = 'neutral' | 'none';
@@ -86,6 +86,11 @@ export class Stage {
     this.camera.fov = (Math.atan(slope) * 360) / Math.PI;
     this.camera.updateProjectionMatrix();
     this.invalidate();
+  }
+
+  /** Sees as wide as a camera of a file. */
+  takeFieldOfView(camera: Camera | undefined): void {
+    if (camera instanceof PerspectiveCamera) this.setFieldOfView(camera.fov);
   }
 
   /** Asks for a frame. */

@@ -6,12 +6,12 @@ import type { LightwellView } from '../element/lightwell_view.js';
 import { bindHash } from './camera_hash.js';
 import { bindNotice } from './notice.js';
 import { bindPacks } from './pack_list.js';
+import { bindPanel } from './panel.js';
 import { bindProgress } from './progress.js';
-import { bindSettings } from './settings.js';
 
 const view = document.querySelector<LightwellView>('#view')!;
 bindProgress(view);
-bindSettings(view);
+bindPanel(view);
 const notice = bindNotice(view);
 const hash = bindHash(view);
 bindPacks(view, hash).catch((error: unknown) => notice.fail(error instanceof Error ? error.message : String(error)));

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { LightwellView } from '../element/lightwell_view.js';
+import html from './settings.html';
+import { bindCameras } from './cameras.js';
+import { bindSharing } from './sharing.js';
 
-/** The controls of the panel; each sets an attribute of the element. */
+/** Stops to both sides of none, and of the pack's own exposure. */
+const LEEWAY = 4;
+
+/**
+ * Puts the controls into the panel; most set an attribute of the element. The page fetches this script when the settings are unfolded: it
+ * imports nothing that the page has (docs/decisions/008-size-of-the-page.md).
+ */
 export function bindSettings(view: LightwellView): void {
+  document.querySelector('#settings')!.insertAdjacentHTML('beforeend', html);
   bindStrategy(view);
   bindLight(view);
   bindExposure(view);
+  bindCameras(view);
+  bindSharing(view);
   const wireframe = document.querySelector<HTMLInputElement>('#wireframe')!;
   wireframe.addEventListener('change', () => view.toggleAttribute('wireframe', wireframe.checked));
 }
@@ -30,10 +42,15 @@ function bindExposure(view: LightwellView): void {
   const slider = document.querySelector<HTMLInputElement>('#exposure')!;
   const stops = document.querySelector<HTMLOutputElement>('#stops')!;
   const label = () => (stops.value = Number(slider.value).toFixed(1));
-  view.on('load', () => {
-    if (!view.hasAttribute('exposure')) slider.value = String(view.pack!.exposure);
+  const show = () => {
+    const exposure = view.pack?.exposure ?? 0;
+    slider.min = String(Math.min(-LEEWAY, exposure - LEEWAY));
+    slider.max = String(Math.max(LEEWAY, exposure + LEEWAY));
+    if (!view.hasAttribute('exposure')) slider.value = String(exposure);
     label();
-  });
+  };
+  view.on('load', show);
+  show();
   slider.addEventListener('input', () => {
     view.setAttribute('exposure', slider.value);
     label();

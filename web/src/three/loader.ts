@@ -74,7 +74,7 @@ export class LightwellLoader extends Loader<LightwellScene> {
   ): Promise<LightwellScene> {
     const renderer = this.#renderer;
     if (renderer === null || !('isWebGLRenderer' in renderer))
-      throw new Error('LightwellLoader: call setRenderer with a WebGLRenderer before loading; WebGPURenderer cannot show packs');
+      throw new Error('LightwellLoader: call setRenderer before loading, with a WebGLRenderer (no WebGPURenderer)');
     const connection = new PackConnection(url, this.#options);
     let scene: LightwellScene | null = null;
     try {

@@ -177,7 +177,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   /** Throws: a stream fills one object. */
   override clone(): never {
-    throw new Error('LightwellScene: a pack cannot be cloned, since it streams. Load it again: the browser has kept its file.');
+    throw new Error('LightwellScene: cannot be cloned, since it streams; load it again');
   }
 
   /** Ends the streaming and gives back what the GPU holds. */

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The page's panel and its settings, which are fetched when they are unfolded.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
+import { bake, temporaryFolder } from './packs.mjs';
+import { room, writeScene } from './scenes.mjs';
+import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
+import { complete, loaded } from './view.mjs';
+
+/** The file's cameras by name, with their places. */
+const CAMERAS = { 'From the door': [0, 0, 0.9], 'Am Fenster': [0.5, 0.2, -0.5] };
+/** Rounding. */
+const SAME = 1e-6;
+
+const folder = temporaryFolder();
+const browser = await forAllTests(launch());
+
+function packWithCameras() {
+  const material = { pbrMetallicRoughness: { metallicFactor: 0 } };
+  const file = writeScene(`${folder}/room.gltf`, [{ mesh: room(1), material }], [{ lamp: { type: 'point', intensity: 5 }, at: [0, 0.8, 0] }]);
+  const gltf = JSON.parse(readFileSync(file, 'utf8'));
+  gltf.cameras = [{ type: 'perspective', perspective: { yfov: 1, znear: 0.1 } }];
+  for (const [name, translation] of Object.entries(CAMERAS))
+    gltf.scenes[0].nodes.push(gltf.nodes.push({ name, camera: gltf.cameras.push(gltf.cameras[0]) - 1, translation }) - 1);
+  gltf.cameras.shift();
+  for (const node of gltf.nodes) if (node.camera !== undefined) node.camera--;
+  writeFileSync(file, JSON.stringify(gltf));
+  return bake(file, `${folder}/room.lw.glb`);
+}
+
+const PACK = packWithCameras();
+
+async function openViewer(t, size) {
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/room.lw.glb'), '/room.lw.glb': PACK }));
+  const opened = await forTest(t, openPage(browser, size));
+  const scripts = [];
+  opened.page.on('request', (request) => request.resourceType() === 'script' && scripts.push(new URL(request.url()).pathname));
+  await opened.page.goto(server.url);
+  return { ...opened, scripts, url: server.url };
+}
+
+const WIDE = { width: 900, height: 700 };
+
+async function openSettings(page) {
+  await page.getByText('Settings').click();
+  await page.locator('#exposure').waitFor();
+}
+
+test('the panel is folded on a phone and unfolded where there is room', async (t) => {
+  const phone = await openViewer(t, { width: 390, height: 780, hasTouch: true, isMobile: true });
+  await loaded(phone.page);
+  assert.equal(await phone.page.locator('#geometry').isVisible(), false);
+  await phone.page.locator('#title').tap();
+  await phone.page.locator('#geometry').waitFor();
+  const desk = await openViewer(t, WIDE);
+  await desk.page.locator('#geometry').waitFor();
+});
+
+test('the settings’ script is fetched when they are unfolded, and knows what is shown', async (t) => {
+  const { page, scripts, errors } = await openViewer(t, WIDE);
+  await complete(page);
+  assert.ok(!scripts.some((path) => /settings/.test(path)), `${scripts}`);
+  await openSettings(page);
+  const exposure = await page.evaluate(() => document.querySelector('lightwell-view').pack.exposure);
+  assert.ok(Math.abs(Number(await page.locator('#exposure').inputValue()) - exposure) <= 0.05);
+  await page.getByLabel('Direct light', { exact: true }).uncheck();
+  assert.equal(await page.locator('lightwell-view').getAttribute('light'), 'indirect');
+  await page.getByLabel('Wireframe').check();
+  assert.equal(await page.locator('lightwell-view').getAttribute('wireframe'), '');
+  assert.deepEqual(errors, []);
+});
+
+test('the file’s cameras are offered by their names, and looked through', async (t) => {
+  const { page } = await openViewer(t, WIDE);
+  await loaded(page);
+  await openSettings(page);
+  assert.deepEqual(await page.locator('#cameras option').allTextContents(), Object.keys(CAMERAS));
+  for (const [name, place] of Object.entries(CAMERAS).reverse()) {
+    await page.selectOption('#cameras', name);
+    const position = await page.evaluate(() => document.querySelector('lightwell-view').camera.position.toArray());
+    position.forEach((value, axis) => assert.ok(Math.abs(value - place[axis]) < SAME, `${name}: ${position}`));
+  }
+});
+
+test('a picture is saved, and links and HTML are copied', async (t) => {
+  const { page, url, errors } = await openViewer(t, WIDE);
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await complete(page);
+  await openSettings(page);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByText('Save picture').click()]);
+  assert.equal(download.suggestedFilename(), 'room.png');
+  assert.equal(readFileSync(await download.path()).subarray(1, 4).toString(), 'PNG');
+  const copied = async (button) => {
+    await page.getByText(button).click();
+    await page.getByText('is copied').waitFor();
+    return page.evaluate(() => navigator.clipboard.readText());
+  };
+  assert.equal(await copied('Copy link'), page.url());
+  const html = await copied('Copy HTML');
+  assert.match(html, new RegExp(`^<lightwell-view src="${url}room.lw.glb" camera-controls camera-orbit="[^"]+rad [^"]+rad [^"]+m" camera-target=`));
+  assert.deepEqual(errors, []);
+});
+
+test('the page fills the screen and leaves it', async (t) => {
+  const { page, errors } = await openViewer(t, WIDE);
+  await loaded(page);
+  await openSettings(page);
+  await page.getByText('Full screen').click();
+  await page.waitForFunction(() => document.fullscreenElement !== null);
+  await page.getByText('Full screen').click();
+  await page.waitForFunction(() => document.fullscreenElement === null);
+  assert.deepEqual(errors, []);
+});
