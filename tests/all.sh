@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What `./run test --all` adds: format and lint, every test under sanitizers (built by Clang) with ten times the seeds, ten
-# minutes of fuzzing, and everything in ../shared/data baked, verified and streamed. Expects build/release.
-#   all.sh [PART...]   one or several of: style sanitizers fuzz shared; all by default
+# minutes of fuzzing, the npm package in slow toolchains, and everything in ../shared/data baked, verified and streamed. Expects
+# build/release.
+#   all.sh [PART...]   one or several of: style sanitizers fuzz toolchains shared; all by default
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-600}
@@ -61,16 +62,21 @@ fuzz() {
     xargs -P 2 -I NAME bash -c "fuzz_target NAME $((2 * fuzz_seconds / ${#names[@]}))" >&2
 }
 
+toolchains() {
+  say "Running the browser's slow tests"
+  node --test --test-concurrency=1 tests/e2e/slow/*.test.mjs >&2
+}
+
 shared() {
   say "Taking everything in ../shared/data through the program"
   tests/shared_data.sh
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(style sanitizers fuzz shared)
+[ $# -gt 0 ] || parts=(style sanitizers fuzz toolchains shared)
 for part in "${parts[@]}"; do
   case $part in
-    style | sanitizers | fuzz | shared) "$part" ;;
-    *) sed -n 2,4p "$0" >&2; exit 2 ;;
+    style | sanitizers | fuzz | toolchains | shared) "$part" ;;
+    *) sed -n 2,5p "$0" >&2; exit 2 ;;
   esac
 done
