@@ -9,6 +9,9 @@ export async function openFingers(page, { width, height }) {
   const touch = (type, fingers) =>
     session.send('Input.dispatchTouchEvent', { type, touchPoints: fingers.map(([x, y], id) => ({ x: x * width, y: y * height, id })) });
   return {
+    put: (place) => touch('touchStart', [place]),
+    drag: (place) => touch('touchMove', [place]),
+    lift: () => touch('touchEnd', []),
     async move(...ways) {
       const at = (step) => ways.map(({ from, to }) => from.map((start, axis) => start + ((to[axis] - start) * step) / STEPS));
       await touch('touchStart', at(0));

@@ -87,6 +87,23 @@ test('the file’s cameras are offered by their names, and looked through', asyn
   }
 });
 
+test('the visitor walks when the box is ticked, and circles again when it is not', async (t) => {
+  const { page, scripts, errors } = await openViewer(t, WIDE);
+  await complete(page);
+  await openSettings(page);
+  assert.ok(!scripts.some((path) => /walk/.test(path)), `${scripts}`);
+  await page.getByLabel('Walk').check();
+  const before = await page.evaluate(() => document.querySelector('lightwell-view').camera.position.toArray());
+  // The script is on its way: a key that is held repeats.
+  await page.waitForFunction(() => document.querySelector('lightwell-view').shadowRoot.activeElement?.tabIndex === 0);
+  await page.keyboard.down('KeyS');
+  await page.waitForFunction((place) => document.querySelector('lightwell-view').camera.position.toArray().join() !== place.join(), before);
+  await page.keyboard.up('KeyS');
+  await page.getByLabel('Walk').uncheck();
+  assert.equal(await page.locator('lightwell-view').getAttribute('camera-controls'), 'always');
+  assert.deepEqual(errors, []);
+});
+
 test('a picture is saved, and links and HTML are copied', async (t) => {
   const { page, url, errors } = await openViewer(t, WIDE);
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);

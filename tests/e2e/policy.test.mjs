@@ -58,3 +58,12 @@ test('the element, script and pack on another server', async (t) => {
   const headers = { 'Content-Security-Policy': ELSEWHERE.replaceAll('https://cdn.example', other.url.slice(0, -1)) };
   await assertWorks(t, (await forTest(t, startStaticServer({ '/': page['/'] }, { headers }))).url);
 });
+
+test('without a worker the page decodes by itself', async (t) => {
+  const headers = { 'Content-Security-Policy': OWN.replace("worker-src 'self'", "worker-src 'none'") };
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/pack.lw.glb'), '/pack.lw.glb': PACK }, { headers }));
+  const { page } = await forTest(t, openPage(browser));
+  await page.goto(server.url);
+  await complete(page);
+  assert.equal(page.workers().length, 0);
+});

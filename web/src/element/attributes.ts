@@ -6,7 +6,7 @@ export interface LightwellViewAttributes {
   src?: string;
   poster?: string;
   loading?: 'auto' | 'eager' | 'lazy';
-  'camera-controls'?: boolean | '' | 'always';
+  'camera-controls'?: boolean | '' | 'always' | 'walk';
   'camera-orbit'?: string;
   'camera-target'?: string;
   'field-of-view'?: string;

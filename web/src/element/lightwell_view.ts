@@ -25,7 +25,7 @@ const VIEW_REST = 150;
  * `<lightwell-view src="room.lw.glb" camera-controls>` shows a pack.
  *
  * Attributes: `src`, `poster` (a picture until the first frame), `loading` ("auto" and "eager" at once, "lazy" when it comes
- * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page), `camera-orbit` ("30deg 75deg 4m":
+ * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
  * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
  * "geometry", "light"), `wireframe`.
@@ -313,7 +313,8 @@ export class LightwellView extends Base implements ContextHolder {
       case 'poster':
         return this.#firstFrame ? undefined : this.#overlay!.setPoster(value);
       case 'camera-controls':
-        return this.#orbit!.allow(value !== null, value === 'always');
+        this.#orbit!.allow(value);
+        return void (value === 'walk' && import('./walk.js').then(({ walk }) => walk(this)));
       case 'camera-orbit':
       case 'camera-target':
         return this.#setCamera();

@@ -60,13 +60,14 @@ export class Orbit {
   }
 
   /**
-   * Whether the visitor moves the camera. Unless `always`, a swipe up or down and the wheel scroll the page: a finger turns the scene
-   * when it begins sideways, two fingers move it, and the wheel zooms while the canvas has the focus, as after a click.
+   * Whether and how the visitor moves the camera, as `camera-controls` says it. Unless "always", a swipe up or down and the wheel scroll
+   * the page: a finger turns the scene when it begins sideways, two fingers move it, and the wheel zooms while the canvas has the
+   * focus, as after a click. Who walks does not circle.
    */
-  allow(enabled: boolean, always: boolean): void {
-    this.#controls.enabled = enabled;
-    this.#always = always;
-    this.#canvas.style.touchAction = !enabled ? 'auto' : always ? 'none' : 'pan-y';
+  allow(mode: string | null): void {
+    const enabled = (this.#controls.enabled = mode !== null && mode !== 'walk');
+    this.#always = mode === 'always';
+    this.#canvas.style.touchAction = !enabled ? 'auto' : this.#always ? 'none' : 'pan-y';
     this.#canvas.tabIndex = enabled ? 0 : -1;
   }
 
@@ -94,7 +95,10 @@ export class Orbit {
     this.#controls.reset();
   }
 
-  /** Moves on to a frame's time, in milliseconds, and says whether it moved since the last one. A glide takes as long with few frames as with many. */
+  /**
+   * Moves on to a frame's time, in milliseconds, and says whether it moved since the last one. A glide takes as long with few frames as
+   * with many.
+   */
   update(time: number): boolean {
     const seconds = this.#moving ? Math.max(0, time - this.#time) / 1000 : FIRST_FRAME;
     this.#time = time;

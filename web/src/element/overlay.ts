@@ -9,7 +9,7 @@ canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; outline-o
 .gone { opacity: 0; pointer-events: none; }
 div { position: absolute; inset: auto 0 0; }
 .bar { height: 3px; background: #8884; }
-.bar i { display: block; height: 100%; background: #e8a33d; transform-origin: left; }
+.bar i { display: block; height: 100%; background: #e8a33d; }
 .message { padding: 8px 12px; background: #fffe; color: #222; font: 14px/1.4 system-ui; overflow-wrap: anywhere; }
 `;
 let sheet: CSSStyleSheet | undefined;
@@ -66,9 +66,9 @@ export class Overlay {
   /** How much has come; null hides the bar. */
   setProgress(share: Share | null): void {
     this.#progress.hidden = share === null;
-    const part = share === null || share.total === 0 ? 0 : share.done / share.total;
-    this.#bar.ariaValueNow = String(Math.round(100 * part));
-    (this.#bar.firstElementChild as HTMLElement).style.transform = `scaleX(${part})`;
+    const percent = share === null || share.total === 0 ? 0 : Math.round((100 * share.done) / share.total);
+    this.#bar.ariaValueNow = String(percent);
+    (this.#bar.firstElementChild as HTMLElement).style.width = `${percent}%`;
   }
 
   /** What went wrong: no more will come. No words hide the message. */

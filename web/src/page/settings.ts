@@ -4,6 +4,7 @@ import html from './settings.html';
 import { bindCameras } from './cameras.js';
 import { bindSharing } from './sharing.js';
 
+const HOW_TO_WALK = 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.';
 /** Stops to both sides of none, and of the pack's own exposure. */
 const LEEWAY = 4;
 
@@ -16,6 +17,7 @@ export function bindSettings(view: LightwellView): void {
   bindStrategy(view);
   bindLight(view);
   bindExposure(view);
+  bindWalk(view);
   bindCameras(view);
   bindSharing(view);
   const wireframe = document.querySelector<HTMLInputElement>('#wireframe')!;
@@ -36,6 +38,15 @@ function bindLight(view: LightwellView): void {
   };
   direct.addEventListener('change', apply);
   indirect.addEventListener('change', apply);
+}
+
+function bindWalk(view: LightwellView): void {
+  const walk = document.querySelector<HTMLInputElement>('#walk')!;
+  walk.addEventListener('change', () => {
+    view.setAttribute('camera-controls', walk.checked ? 'walk' : 'always');
+    document.querySelector<HTMLOutputElement>('#done')!.value = walk.checked ? HOW_TO_WALK : '';
+    view.shadowRoot!.querySelector('canvas')?.focus();
+  });
 }
 
 function bindExposure(view: LightwellView): void {
