@@ -113,9 +113,13 @@ test('of a pack that loads out of sight the rest comes when it is seen', async (
   assert.deepEqual(errors, []);
 });
 
-test('an element that comes back to the page loads once', async (t) => {
+test('an element that comes back to the page loads once, and keeps its view', async (t) => {
   const { page, errors } = await openPack(t, () => SMALL, COUNT_WORKERS);
   await complete(page);
+  await page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    view.view = { ...view.view, theta: 1 };
+  });
   await page.evaluate(() => {
     const view = document.querySelector('lightwell-view');
     const { parentNode, nextSibling } = view;
@@ -124,6 +128,7 @@ test('an element that comes back to the page loads once', async (t) => {
   });
   await complete(page);
   assert.deepEqual(await page.evaluate(() => globalThis.workers), { started: 2, alive: 1 });
+  assert.ok(Math.abs((await page.evaluate(() => document.querySelector('lightwell-view').view.theta)) - 1) < 1e-6);
   assert.deepEqual(errors, []);
 });
 

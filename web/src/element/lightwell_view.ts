@@ -58,7 +58,7 @@ export class LightwellView extends Base implements ContextHolder {
   #firstFrame = false;
   #progress: Progress | null = null;
   #wantedView: View | null = null;
-  /** Of the pack whose last picture stands for it. */
+  /** Of the pack that was shown when the context was given back. */
   #keptView: View | null = null;
   #viewTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #resize = new ResizeObserver(() => this.#stage?.resize(this.clientWidth, this.clientHeight));
@@ -144,8 +144,8 @@ export class LightwellView extends Base implements ContextHolder {
     if (this.#overlay === null) {
       this.#overlay = new Overlay(this.attachShadow({ mode: 'open' }));
       for (const use of ['pointerenter', 'focusin']) this.addEventListener(use, () => this.#wake());
+      this.#apply('poster');
     }
-    this.#apply('poster');
     this.#resize.observe(this);
     this.#intersection.observe(this);
     if (this.getAttribute('loading') !== 'lazy') wantContext(this);
@@ -190,7 +190,7 @@ export class LightwellView extends Base implements ContextHolder {
   giveContextBack(): void {
     const stage = this.#stage;
     if (stage === null) return;
-    if (this.#firstFrame && this.isConnected) {
+    if (this.#firstFrame) {
       stage.draw();
       this.#overlay!.keep(stage.canvas);
       this.#keptView = this.view;
