@@ -37,16 +37,16 @@ Readings read_meter(const World& world, const Camera& camera, const LightField& 
       for (int i = 0; i < samples; i++) {
         const float x = (static_cast<float>(column) + random.uniform()) / width;
         const float y = (static_cast<float>(row) + random.uniform()) / height;
+        const Ray ray = camera_ray(camera, float(width) / height, x, y);
         Hit hit;
-        if (!surfaces.intersect(camera_ray(camera, float(width) / height, x, y), random, hit)) continue;
+        if (!surfaces.intersect(ray, random, hit)) continue;
         const Receiver receiver = Receiver::irradiance(hit.position, hit.facing_normal());
         DirectAndIndirect light(held);
         trace_path(world, receiver, 0, random, light);
-        const Vec3f normal = surfaces.shading_normal(hit);
+        const Vec3f normal = surfaces.shading_normal(hit, ray.direction);
         const Vec3f white = (light.direct + field.irradiance(hit.position, normal, normal)) / pi;
-        const Bsdf bsdf = surfaces.surface(hit).bsdf;
-        pixels[pixel] +=
-            Vec2f{{luminance(white), luminance(hit.tint * white * (bsdf.diffuse + bsdf.metal))}} / float(samples);
+        const Vec3f albedo = surfaces.surface(hit).bsdf.albedo(-dot(normal, ray.direction)).total();
+        pixels[pixel] += Vec2f{{luminance(white), luminance(hit.tint * white * albedo)}} / float(samples);
       }
     }
   });

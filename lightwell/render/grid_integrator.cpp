@@ -37,11 +37,14 @@ std::unique_ptr<Integrator> make_grid_integrator(const World& world, const Integ
 }
 
 Vec3f reflected_from_field(const LightField& field, const Receiver& receiver) {
-  const Vec3f& normal = receiver.shading_normal;
-  Vec3f light = receiver.bsdf.diffuse * field.irradiance(receiver.position, normal, normal);
-  if (max_component(receiver.bsdf.metal) > 0) {
-    const Vec3f mirrored = normalized(normal * (2 * dot(normal, receiver.out)) - receiver.out);
-    light += receiver.bsdf.metal * field.irradiance(receiver.position, normal, mirrored);
+  const Shading& shading = receiver.shading;
+  const Vec3f& normal = shading.shading_normal;
+  const float cosine = dot(normal, shading.out);
+  const Bsdf::Albedo albedo = shading.bsdf.albedo(cosine);
+  Vec3f light = (albedo.diffuse + albedo.repeated) * field.irradiance(receiver.position, normal, normal);
+  if (max_component(albedo.gloss) > 0) {
+    const Vec3f mirrored = normalized(normal * (2 * cosine) - shading.out);
+    light += albedo.gloss * field.irradiance(receiver.position, normal, mirrored);
   }
   return light / pi;
 }

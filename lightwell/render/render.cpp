@@ -42,11 +42,7 @@ class Renderer {
     if (!surfaces.intersect(ray, random, hit))
       return total ? hit.tint * world_.lights().environment().radiance(ray.direction) : Vec3f{};
     const Surface surface = surfaces.surface(hit);
-    const Receiver receiver{.position = hit.position,
-                            .normal = hit.facing_normal(),
-                            .shading_normal = surfaces.shading_normal(hit),
-                            .out = -ray.direction,
-                            .bsdf = surface.bsdf};
+    const Receiver receiver = Receiver::seen(surfaces, hit, surface, ray.direction);
     // What is unlit shows its colour, as in every viewer, and no light.
     if (surfaces.material(hit.instance).unlit) return total ? hit.tint * surface.bsdf.diffuse : Vec3f{};
     Vec3f sum = total ? surfaces.emission(hit, surface) : Vec3f{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/scene/import_gltf_material.h"
 
+#include <array>
 #include <cmath>
 
 #include "lightwell/texture/image_file.h"
@@ -10,6 +11,17 @@ namespace {
 
 /// The most pixels that all images of a scene may have together.
 constexpr uint64_t max_pixels = uint64_t(1) << 31;
+
+// Beyond these a factor changes nothing that can be seen.
+constexpr float largest_specular_color = 1e6f, largest_ior = 1e6f;
+constexpr double largest_scale = 1e6;
+
+/// Extensions of materials that change how a surface looks in ways that are not followed. They are kept in a pack, so
+/// that a page may show them.
+constexpr std::array ignored_extensions = std::to_array<const char*>(
+    {"KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_diffuse_transmission",
+     "KHR_materials_dispersion", "KHR_materials_iridescence", "KHR_materials_pbrSpecularGlossiness",
+     "KHR_materials_sheen", "KHR_materials_volume"});
 
 TextureLookup::Wrap wrap_mode(const Json& sampler, const char* key) {
   switch (index_of(sampler, key)) {
@@ -58,8 +70,23 @@ class MaterialReader {
     material.metallic = factor(surface, "metallicFactor", 1, 1);
     material.roughness = factor(surface, "roughnessFactor", 1, 1);
     material.metallic_roughness_texture = lookup(member(surface, "metallicRoughnessTexture"));
-    material.transmission = factor(extension(json_, "KHR_materials_transmission"), "transmissionFactor", 0, 1);
+    const Json& normal = member(json_, "normalTexture");
+    material.normal_texture = lookup(normal);
+    material.normal_scale = static_cast<float>(std::clamp(number(normal, "scale", 1), -largest_scale, largest_scale));
+    const Json& transmission = extension(json_, "KHR_materials_transmission");
+    material.transmission = factor(transmission, "transmissionFactor", 0, 1);
+    material.transmission_texture = lookup(member(transmission, "transmissionTexture"));
+    read_gloss(material);
     if (extension(json_, "KHR_materials_unlit").is_object()) make_diffuse(material);
+  }
+
+  void read_gloss(Material& material) {
+    const Json& specular = extension(json_, "KHR_materials_specular");
+    material.specular = factor(specular, "specularFactor", 1, 1);
+    material.specular_texture = lookup(member(specular, "specularTexture"));
+    material.specular_color = factors<3>(specular, "specularColorFactor", 1, largest_specular_color);
+    material.specular_color_texture = lookup(member(specular, "specularColorTexture"));
+    material.ior = factor(extension(json_, "KHR_materials_ior"), "ior", 1.5f, largest_ior);
   }
 
   /// An unlit surface shows its colour without light; for the light around it, it is a diffuse one of that colour.
@@ -68,6 +95,8 @@ class MaterialReader {
     material.metallic = 0;
     material.roughness = 1;
     material.metallic_roughness_texture = {};
+    material.specular = 0;
+    material.normal_texture = {};
   }
 
   void read_emission(Material& material) {
@@ -89,10 +118,10 @@ class MaterialReader {
   }
 
   template <int N>
-  Vec<float, N> factors(const Json& object, const char* key, float fallback) {
+  Vec<float, N> factors(const Json& object, const char* key, float fallback, float largest = 1) {
     const auto values = numbers<N>(object, key, Vec<double, N>::filled(fallback));
     Vec<float, N> result;
-    for (int i = 0; i < N; i++) result[i] = clamp(values[i], 1);
+    for (int i = 0; i < N; i++) result[i] = clamp(values[i], largest);
     return result;
   }
 
@@ -134,6 +163,21 @@ Result<Image> decode_image(const Document& document, int index) {
   return image;
 }
 
+/// One warning for each extension that is not followed, by the first material that has it.
+void warn_of_ignored_extensions(const Json& materials, Report& report) {
+  for (const char* ignored : ignored_extensions) {
+    std::string first;
+    size_t count = 0;
+    for (size_t i = 0; i < materials.size(); i++) {
+      if (!extension(materials[i], ignored).is_object() || count++ > 0) continue;
+      first = element_name("materials", i);
+      if (const std::string name = text(materials[i], "name"); !name.empty()) first += " \"" + name.substr(0, 80) + '"';
+    }
+    if (count > 1) first += " and " + std::to_string(count - 1) + " more";
+    if (count > 0) report.warn(first + ": " + ignored + " is ignored; the light is that without it");
+  }
+}
+
 }  // namespace
 
 int image_of(const Json& texture) {
@@ -149,6 +193,7 @@ std::vector<Material> read_materials(const Json& document, Report& report) {
   const Json& array = member(document, "materials");
   for (size_t i = 0; i < array.size(); i++)
     materials.push_back(MaterialReader(document, array[i], element_name("materials", i), report).read());
+  warn_of_ignored_extensions(array, report);
   return materials;
 }
 

@@ -37,7 +37,15 @@ struct Material {
   float metallic = 1;
   float roughness = 1;
   TextureLookup metallic_roughness_texture;  ///< linear: green roughness, blue metallic
-  float transmission = 0;                    ///< KHR_materials_transmission, factor only
+  float transmission = 0;                    ///< KHR_materials_transmission
+  TextureLookup transmission_texture;        ///< linear: red
+  float specular = 1;                        ///< KHR_materials_specular: of the dielectric's gloss
+  TextureLookup specular_texture;            ///< linear: alpha
+  Vec3f specular_color = Vec3f::filled(1);   ///< KHR_materials_specular: at normal incidence
+  TextureLookup specular_color_texture;      ///< sRGB
+  float ior = 1.5f;                          ///< KHR_materials_ior
+  TextureLookup normal_texture;              ///< linear: a direction, x along u, y against v
+  float normal_scale = 1;                    ///< of its x and y
   Alpha alpha = Alpha::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;

@@ -7,7 +7,7 @@ namespace {
 /// Near surfaces that are followed one after the other; in a gap that is narrower they are taken as they are.
 constexpr int most_near = 6;
 
-/// Follows one ray from metal to metal, and through narrow places.
+/// Follows one ray from gloss to gloss, and through narrow places.
 class Gatherer {
  public:
   Gatherer(const World& world, float near, Random& random)
@@ -33,7 +33,7 @@ class Gatherer {
       Bsdf followed = surface.bsdf;
       if (hit.distance >= near_ || reflections_ >= most_near) {
         gathering_.diffuse[gathering_.diffuse_count++] = {hit.position, hit.facing_normal(),
-                                                          throughput_ * surface.bsdf.diffuse};
+                                                          throughput_ * surface.bsdf.albedo(hit.cosine).diffuse};
         followed.diffuse = {};
       }
       if (!reflect(hit, followed, ray)) break;
@@ -56,15 +56,16 @@ class Gatherer {
     }
   }
 
-  /// Turns the ray into one that a surface reflects; false when it ends.
+  /// Turns the ray into one that a surface reflects; false when it ends, as chance has it for what reflects little.
   bool reflect(const Hit& hit, const Bsdf& bsdf, Ray& ray) {
-    if (max_component(max(bsdf.metal, bsdf.diffuse)) <= 0) return false;
+    const float survival = std::min(1.0f, max_component(throughput_ * bsdf.albedo(hit.cosine).total()));
+    if (survival <= 0 || random_.uniform() >= survival) return false;
+    throughput_ *= 1 / survival;
     const Vec3f normal = hit.facing_normal(), out = -ray.direction;
     sample_lights(hit.position, normal, out, bsdf);
     const Bsdf::Sample sample = bsdf.sample(normal, out, random_);
-    const float survival = std::min(1.0f, max_component(throughput_ * sample.weight));
-    if (survival <= 0 || random_.uniform() >= survival) return false;
-    throughput_ *= sample.weight / survival;
+    if (max_component(sample.weight) <= 0) return false;
+    throughput_ *= sample.weight;
     lobe_density_ = sample.density;
     ray = {surfaces_.leave(hit.position, normal), sample.in};
     return true;
@@ -74,13 +75,12 @@ class Gatherer {
     const Arrival arrival = lights_.sample(position, random_);
     const float cosine = dot(normal, arrival.direction);
     if (cosine <= 0 || max_component(arrival.radiance) <= 0) return;
-    const Vec3f value = bsdf.value(normal, out, arrival.direction);
+    const Bsdf::Evaluation found = bsdf.evaluate(normal, out, arrival.direction);
     gathering_.rays++;
-    if (max_component(value) <= 0) return;
+    if (max_component(found.value) <= 0) return;
     const Vec3f seen = visibility(surfaces_, position, normal, arrival, random_);
-    const float weight =
-        arrival.extended ? power_heuristic(arrival.density, bsdf.density(normal, out, arrival.direction)) : 1.0f;
-    gathering_.mirrored += throughput_ * value * seen * arrival.radiance * (cosine * weight / arrival.density);
+    const float weight = arrival.extended ? power_heuristic(arrival.density, found.density) : 1.0f;
+    gathering_.mirrored += throughput_ * found.value * seen * arrival.radiance * (cosine * weight / arrival.density);
   }
 
   const TraceScene& surfaces_;

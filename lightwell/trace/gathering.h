@@ -7,7 +7,7 @@
 
 namespace lightwell {
 
-/// What a ray sees: the diffuse surfaces at its end, straight or by way of metals, whose own light is still to be found
+/// What a ray sees: the diffuse surfaces at its end, straight or by way of gloss, whose own light is still to be found
 /// out; and light that is known.
 struct Gathering {
   /// A point of a surface that reflects diffusely: it sends albedo / pi times its irradiance.
@@ -20,7 +20,7 @@ struct Gathering {
 
   std::array<Diffuse, most_diffuse> diffuse;
   size_t diffuse_count = 0;
-  Vec3f mirrored{};  ///< W/m2/sr, of luminaires by way of metals and near surfaces
+  Vec3f mirrored{};  ///< W/m2/sr, of luminaires by way of gloss and near surfaces
   Vec3f emitted{};   ///< W/m2/sr, of the luminaire that the ray meets first
   int luminaire = -1;
   bool meets_surface = false;
@@ -28,8 +28,8 @@ struct Gathering {
   int rays = 0;
 };
 
-/// Follows a ray. Metals are followed by one sample of their lobe each, and one of the luminaires, weighted by the
-/// power heuristic. So are all surfaces at which the ray arrives after less than `near` metres: a cache does not know
+/// Follows a ray. Gloss is followed by one sample of its lobe, and one of the luminaires, weighted by the power
+/// heuristic, as often as it reflects. So are all surfaces at which the ray arrives after less than `near` metres: a cache does not know
 /// their light well, since its cells are larger than what lies between.
 Gathering gather(const World& world, Ray ray, float near, Random& random);
 

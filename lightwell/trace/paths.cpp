@@ -33,28 +33,25 @@ class Path {
 
   void sample_lights() {
     const Arrival arrival = lights_.sample(vertex_.position, random_);
-    const float cosine = dot(vertex_.shading_normal, arrival.direction);
-    if (cosine <= 0 || dot(vertex_.normal, arrival.direction) <= 0 || max_component(arrival.radiance) <= 0) return;
-    const Bsdf& bsdf = vertex_.bsdf;
-    const Vec3f value = bsdf.value(vertex_.shading_normal, vertex_.out, arrival.direction);
-    if (max_component(value) <= 0) return;
+    if (max_component(arrival.radiance) <= 0) return;
+    const Shading::Evaluation found = vertex_.shading.evaluate(arrival.direction);
+    if (max_component(found.reflectance) <= 0) return;
     rays_++;
-    const Vec3f seen = visibility(surfaces_, vertex_.position, vertex_.normal, arrival, random_);
-    const float other = bsdf.density(vertex_.shading_normal, vertex_.out, arrival.direction);
-    const float weight = arrival.extended ? power_heuristic(arrival.density, other) : 1.0f;
-    add(arrival.luminaire, value * seen * arrival.radiance * (cosine * weight / arrival.density));
+    const Vec3f seen = visibility(surfaces_, vertex_.position, vertex_.shading.normal, arrival, random_);
+    const float weight = arrival.extended ? power_heuristic(arrival.density, found.density) : 1.0f;
+    add(arrival.luminaire, found.reflectance * seen * arrival.radiance * (weight / arrival.density));
   }
 
   /// Samples a direction of reflection and follows it to the next vertex; false where the path ends.
   bool extend() {
-    const Bsdf::Sample sample = vertex_.bsdf.sample(vertex_.shading_normal, vertex_.out, random_);
-    if (max_component(sample.weight) <= 0 || dot(vertex_.normal, sample.in) <= 0) return false;
+    const Vec3f normal = vertex_.shading.normal;
+    const Bsdf::Sample sample = vertex_.shading.sample(random_);
+    if (max_component(sample.weight) <= 0 || dot(normal, sample.in) <= 0) return false;
     throughput_ *= sample.weight;
     if (bounces_ == 0) receiver_throughput_ = max_component(throughput_);
     Hit hit;
     rays_++;
-    const bool meets =
-        surfaces_.intersect({surfaces_.leave(vertex_.position, vertex_.normal), sample.in}, random_, hit);
+    const bool meets = surfaces_.intersect({surfaces_.leave(vertex_.position, normal), sample.in}, random_, hit);
     throughput_ *= hit.tint;
     if (!meets) {
       meet_environment(sample);
@@ -63,11 +60,7 @@ class Path {
     const Surface surface = surfaces_.surface(hit);
     meet_surface(sample, hit, surface);
     if (bounces_ >= sure_bounces && !survives()) return false;
-    vertex_ = {.position = hit.position,
-               .normal = hit.facing_normal(),
-               .shading_normal = hit.facing_normal(),
-               .out = -sample.in,
-               .bsdf = surface.bsdf};
+    vertex_ = Receiver::seen(surfaces_, hit, surface, sample.in);
     return true;
   }
 
@@ -107,10 +100,18 @@ class Path {
 
 Receiver Receiver::irradiance(const Vec3f& position, const Vec3f& normal) {
   return {.position = position,
-          .normal = normal,
-          .shading_normal = normal,
-          .out = normal,
-          .bsdf = Bsdf::lambertian(Vec3f::filled(pi))};
+          .shading = {.bsdf = Bsdf::lambertian(Vec3f::filled(pi)),
+                      .normal = normal,
+                      .shading_normal = normal,
+                      .out = normal}};
+}
+
+Receiver Receiver::seen(const TraceScene& surfaces, const Hit& hit, const Surface& surface, const Vec3f& direction) {
+  return {.position = hit.position,
+          .shading = {.bsdf = surface.bsdf,
+                      .normal = hit.facing_normal(),
+                      .shading_normal = surfaces.shading_normal(hit, direction),
+                      .out = -direction}};
 }
 
 int trace_path(const World& world, const Receiver& receiver, int max_bounces, Random& random, ReceivedLight& received) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "lightwell/trace/shading.h"
 #include "lightwell/trace/world.h"
 
 namespace lightwell {
@@ -8,13 +9,12 @@ namespace lightwell {
 /// Where light is received: a surface point seen from a direction.
 struct Receiver {
   Vec3f position{};  ///< on the surface, or in free space
-  Vec3f normal{};    ///< geometric, on the side that receives
-  Vec3f shading_normal{};
-  Vec3f out{};  ///< unit, towards the viewer
-  Bsdf bsdf;
+  Shading shading;   ///< its normals are on the side that receives
 
   /// A receiver whose reflected radiance equals the irradiance of a surface with this normal.
   static Receiver irradiance(const Vec3f& position, const Vec3f& normal);
+  /// The surface that a ray along `direction` has hit.
+  static Receiver seen(const TraceScene& surfaces, const Hit& hit, const Surface& surface, const Vec3f& direction);
 };
 
 /// Collects the light that a receiver reflects towards the viewer, in the portions that a path finds.

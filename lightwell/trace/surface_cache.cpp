@@ -37,7 +37,7 @@ struct Link {
 
 /// What the samples of a cell have found.
 struct CellLight {
-  Vec3f known{};  // irradiance straight from luminaires, or by metals
+  Vec3f known{};  // irradiance straight from luminaires, or by gloss
   std::vector<Link> links;
 };
 

@@ -34,14 +34,19 @@ float bounded(float x) { return std::isfinite(x) ? std::clamp(x, -1e6f, 1e6f) : 
 
 }  // namespace
 
+Vec2f transformed(const TextureLookup& texture, const std::array<Vec2f, 2>& texcoords) {
+  const Vec2f& t = texcoords[texture.texcoord == 1 ? 1 : 0];
+  const Vec3f homogeneous{{t[0], t[1], 1}};
+  return {{dot(Vec3f{texture.row_u}, homogeneous), dot(Vec3f{texture.row_v}, homogeneous)}};
+}
+
 Vec4f look_up(const TextureLookup& texture, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
               bool srgb) {
   if (texture.image < 0) return Vec4f::filled(1);
   const Image& image = images[static_cast<size_t>(texture.image)];
-  const Vec2f& t = texcoords[texture.texcoord == 1 ? 1 : 0];
-  const Vec3f homogeneous{{t[0], t[1], 1}};
-  const float x = bounded(dot(Vec3f{texture.row_u}, homogeneous) * static_cast<float>(image.width) - 0.5f);
-  const float y = bounded(dot(Vec3f{texture.row_v}, homogeneous) * static_cast<float>(image.height) - 0.5f);
+  const Vec2f uv = transformed(texture, texcoords);
+  const float x = bounded(uv[0] * static_cast<float>(image.width) - 0.5f);
+  const float y = bounded(uv[1] * static_cast<float>(image.height) - 0.5f);
   const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
   const float right_share = x - static_cast<float>(left), bottom_share = y - static_cast<float>(top);
   Vec4f sum{};

@@ -11,4 +11,7 @@ namespace lightwell {
 Vec4f look_up(const TextureLookup& texture, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
               bool srgb);
 
+/// Where the texture is read for texture coordinates, in images: KHR_texture_transform applied.
+Vec2f transformed(const TextureLookup& texture, const std::array<Vec2f, 2>& texcoords);
+
 }  // namespace lightwell

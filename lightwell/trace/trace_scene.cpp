@@ -6,6 +6,9 @@
 #include "lightwell/base/assert.h"
 #include "lightwell/scene/finish_mesh.h"
 #include "lightwell/trace/focus.h"
+#include "lightwell/trace/normal_map.h"
+#include "lightwell/trace/shading.h"
+#include "lightwell/trace/texture_lookup.h"
 
 namespace lightwell {
 namespace {
@@ -190,8 +193,7 @@ RTCSceneTy* TraceScene::shared_scene(int primitive, Placed& placed) {
 
 void TraceScene::mark_uniform(Placed& placed) const {
   const Material& m = *placed.material;
-  placed.uniform = placed.mesh->colors.empty() && m.base_color_texture.image < 0 && m.emission_texture.image < 0 &&
-                   m.metallic_roughness_texture.image < 0;
+  placed.uniform = placed.mesh->colors.empty() && !varies(m);
   if (placed.uniform) placed.surface = surface_of(m, scene_.images, {}, Vec4f::filled(1));
 }
 
@@ -220,7 +222,9 @@ bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
   hit.position = ray.origin + ray.direction * hit.distance;
   hit.normal = front_normal(hit.instance, {{r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}});
   if (dot(hit.normal, hit.normal) == 0) hit.normal = -ray.direction;  // a sliver without area
-  hit.front = dot(hit.normal, ray.direction) < 0;
+  const float cosine = -dot(hit.normal, ray.direction);
+  hit.front = cosine > 0;
+  hit.cosine = std::abs(cosine);
   return true;
 }
 
@@ -239,6 +243,14 @@ Vec3f TraceScene::transmittance(const Ray& ray, Random& random) const {
   return r.tfar < 0 ? Vec3f{} : context.tint(ray.far);
 }
 
+/// The cosine in scene space of a ray to what it hits, both given in the space in which Embree holds the face.
+float TraceScene::cosine_of(const RTCRay& ray, const RTCHit& hit, uint32_t instance) const {
+  const Vec3f direction{{ray.dir_x, ray.dir_y, ray.dir_z}};
+  const bool in_scene = placed_[instance].scene_positions;
+  const Vec3f placed = in_scene ? direction : normalized(scene_.instances[instance].to_scene.vector(direction));
+  return std::abs(dot(placed, front_normal(instance, {{hit.Ng_x, hit.Ng_y, hit.Ng_z}})));
+}
+
 /// Called by Embree for each hit of a partly transparent surface: rejects the hit by chance. The chance depends on ray
 /// and face only, so that the order in which Embree finds hits does not matter.
 void TraceScene::filter(const RTCFilterFunctionNArguments* arguments) {
@@ -250,38 +262,61 @@ void TraceScene::filter(const RTCFilterFunctionNArguments* arguments) {
   const uint32_t instance = hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0];
   const uint64_t key = hash64(context.salt ^ hash64(uint64_t(instance) << 32 | hit.primID));
   const float chance = static_cast<float>(key >> 40) * 0x1p-24f;
-  const Surface surface = scene.surface(instance, hit.primID, hit.u, hit.v);
+  const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
+  const Surface surface =
+      scene.surface(instance, hit.primID, hit.u, hit.v, scene.cosine_of(ray, hit, instance));
   if (chance < surface.coverage) return;
   arguments->valid[0] = 0;
   if (!tints_light(scene.material(instance)) || context.pane_count == Context::most_panes) return;
-  const float distance = reinterpret_cast<const RTCRay*>(arguments->ray)->tfar;
-  context.panes[context.pane_count++] = {distance, surface.tint.e};
+  context.panes[context.pane_count++] = {ray.tfar, surface.tint.e};
 }
 
-Surface TraceScene::surface(uint32_t instance, uint32_t face, float u, float v) const {
+std::array<Vec2f, 2> TraceScene::texcoords(const Mesh& mesh, const Face& face, float u, float v) const {
+  std::array<Vec2f, 2> texcoords{};
+  for (size_t set = 0; set < texcoords.size(); set++)
+    if (!mesh.texcoords[set].empty()) texcoords[set] = interpolated(mesh.texcoords[set], face, u, v);
+  return texcoords;
+}
+
+Surface TraceScene::surface(uint32_t instance, uint32_t face, float u, float v, float cosine) const {
   const Placed& placed = placed_[instance];
   if (placed.uniform) return placed.surface;
   const Mesh& mesh = *placed.mesh;
   const Face& f = mesh.faces[face];
-  std::array<Vec2f, 2> texcoords{};
-  for (size_t set = 0; set < texcoords.size(); set++) {
-    if (!mesh.texcoords[set].empty()) texcoords[set] = interpolated(mesh.texcoords[set], f, u, v);
-  }
   const Vec4f color = mesh.colors.empty() ? Vec4f::filled(1) : interpolated(mesh.colors, f, u, v);
-  return surface_of(*placed.material, scene_.images, texcoords, color);
+  return surface_of(*placed.material, scene_.images, texcoords(mesh, f, u, v), color, cosine);
 }
 
 Vec3f TraceScene::emission(const Hit& hit, const Surface& surface) const {
   return hit.front || material(hit.instance).double_sided ? surface.emission : Vec3f{};
 }
 
-Vec3f TraceScene::shading_normal(const Hit& hit) const {
+Vec3f TraceScene::shading_normal(const Hit& hit, const Vec3f& direction) const {
   const Placed& placed = placed_[hit.instance];
-  if (placed.mesh->normals.empty()) return hit.facing_normal();
-  const Vec3f local = interpolated(placed.mesh->normals, placed.mesh->faces[hit.face], hit.u, hit.v);
-  const Vec3f normal = scene_.instances[hit.instance].to_scene.normal(local);
-  if (dot(normal, normal) == 0) return hit.facing_normal();
-  return dot(normal, hit.facing_normal()) < 0 ? -normal : normal;
+  const bool has_map = placed.material->normal_texture.image >= 0;
+  if (placed.mesh->normals.empty() && !has_map) return hit.facing_normal();
+  Vec3f normal = hit.normal;
+  if (!placed.mesh->normals.empty()) {
+    const Vec3f local = interpolated(placed.mesh->normals, placed.mesh->faces[hit.face], hit.u, hit.v);
+    normal = scene_.instances[hit.instance].to_scene.normal(local);
+    if (dot(normal, normal) == 0) normal = hit.normal;
+  }
+  const bool seen = dot(normal, hit.facing_normal()) >= 0;
+  if (has_map) normal = mapped(hit, normal);
+  return facing(seen ? normal : -normal, -direction);
+}
+
+/// The normal turned by the instance's normal map.
+Vec3f TraceScene::mapped(const Hit& hit, const Vec3f& normal) const {
+  const Mesh& mesh = this->mesh(hit.instance);
+  const TextureLookup& map = material(hit.instance).normal_texture;
+  const Face& face = mesh.faces[hit.face];
+  const std::array<Vec2f, 3> at_corners{transformed(map, texcoords(mesh, face, 0, 0)),
+                                        transformed(map, texcoords(mesh, face, 1, 0)),
+                                        transformed(map, texcoords(mesh, face, 0, 1))};
+  const Vec4f texel = look_up(map, scene_.images, texcoords(mesh, face, hit.u, hit.v), false);
+  return mapped_normal(normal, corners(hit.instance, hit.face), at_corners, {{texel[0], texel[1], texel[2]}},
+                       material(hit.instance).normal_scale);
 }
 
 std::array<Vec3f, 3> TraceScene::corners(uint32_t instance, uint32_t face) const {

@@ -12,6 +12,8 @@ struct RTCDeviceTy;
 struct RTCSceneTy;
 struct RTCGeometryTy;
 struct RTCFilterFunctionNArguments;
+struct RTCRay;
+struct RTCHit;
 
 namespace lightwell {
 
@@ -30,6 +32,7 @@ struct Hit {
   uint32_t instance = 0;  ///< index into Scene::instances
   uint32_t face = 0;      ///< of the instance's mesh
   float u = 0, v = 0;     ///< weights of the face's second and third corner
+  float cosine = 1;       ///< of the ray to the normal, positive
   bool front = true;      ///< the ray came from the front
   /// The tint of what the ray has passed on its way; also of a ray that meets nothing.
   Vec3f tint = Vec3f::filled(1);
@@ -62,9 +65,10 @@ class TraceScene {
   Vec3f transmittance(const Ray& ray, Random& random) const;
 
   /// The material at a hit.
-  Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v); }
-  /// The material at a point of a face; u and v are the weights of its second and third corner.
-  Surface surface(uint32_t instance, uint32_t face, float u, float v) const;
+  Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v, hit.cosine); }
+  /// The material at a point of a face, for a ray with this cosine to its normal; u and v are the weights of the face's
+  /// second and third corner.
+  Surface surface(uint32_t instance, uint32_t face, float u, float v, float cosine = 1) const;
   /// The material of an instance that is traced.
   const Material& material(uint32_t instance) const { return *placed_[instance].material; }
   const Mesh& mesh(uint32_t instance) const { return *placed_[instance].mesh; }
@@ -76,9 +80,10 @@ class TraceScene {
 
   /// The radiance emitted back along the ray: by the front of a surface, by both sides when double-sided.
   Vec3f emission(const Hit& hit, const Surface& surface) const;
-  /// The interpolated vertex normal, unit, turned to the side that the ray came from; the geometric one where the mesh
-  /// has no normals. For display: transport uses the geometric normal.
-  Vec3f shading_normal(const Hit& hit) const;
+  /// The normal for shading, unit, on the side that a ray along `direction` came from: interpolated from the vertices,
+  /// or the geometric one where the mesh has none, and turned by the normal map. For what paths look at; photons and
+  /// baked light use the geometric normal (docs/decisions/022-materials.md).
+  Vec3f shading_normal(const Hit& hit, const Vec3f& direction) const;
 
   /// The corners of a face in scene space, in the mesh's order.
   std::array<Vec3f, 3> corners(uint32_t instance, uint32_t face) const;
@@ -112,8 +117,11 @@ class TraceScene {
   RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene);
   RTCSceneTy* shared_scene(int primitive, Placed& placed);
   void mark_uniform(Placed& placed) const;
+  std::array<Vec2f, 2> texcoords(const Mesh& mesh, const Face& face, float u, float v) const;
+  Vec3f mapped(const Hit& hit, const Vec3f& normal) const;
   Vec3f front_normal(uint32_t instance, const Vec3f& by_winding) const;
   uint64_t salt(Random& random) const;
+  float cosine_of(const RTCRay& ray, const RTCHit& hit, uint32_t instance) const;
   static void filter(const RTCFilterFunctionNArguments* arguments);
 
   const Scene& scene_;

@@ -112,8 +112,8 @@ TEST(Paths, ShowTheSkyInAMirror) {
   const auto world = world_of(scene);
   for (const float roughness : {0.0f, 0.2f}) {
     Receiver receiver = Receiver::irradiance({}, up);
-    receiver.out = normalized(Vec3f{{1, 2, 0}});
-    receiver.bsdf = {.metal = Vec3f::filled(1), .metallic = 1, .roughness = roughness};
+    receiver.shading.out = normalized(Vec3f{{1, 2, 0}});
+    receiver.shading.bsdf = {.gloss = Vec3f::filled(1), .grazing = 1, .roughness = roughness};
     const Vec3d light = mean_light(*world, receiver, 0, 20000)[0];
     // Facets of alpha up to 0.04 hide less than 0.1 % of each other. Samples of the sky meet the lobe one in hundreds
     // and weigh little.

@@ -11,8 +11,6 @@ namespace lightwell {
 namespace {
 
 constexpr int samples = 200000;
-/// Standard deviations that a right sampler exceeds once in a million seeds.
-constexpr double allowed = 5;
 
 /// One of `count` equal parts of [lo, hi].
 size_t part(float x, float lo, float hi, size_t count) {
@@ -71,40 +69,64 @@ TEST(SampleCosineHemisphere, HasACosinesDensityAroundAnyNormal) {
   for (const Vec3f& normal : {Vec3f{{0, 0, -1}}, Vec3f{{0, 1, 0}}, normalized(Vec3f{{1, -2, 0.5f}})}) {
     const Frame frame(normal);
     // Malley: projected onto the plane the directions are uniform in the disc, and so is the square of the cosine.
-    const double deviation = chi_square_of_square(2, [&](Random& random) {
+    const double probability = chi_square_of_square(2, [&](Random& random) {
       const Vec3f v = frame.to_local(sample_cosine_hemisphere(normal, random));
       EXPECT_GE(v[2], 0);
       EXPECT_NEAR(length(v), 1, 1e-5f);
       return std::pair(part(v[2] * v[2], 0, 1, 16), part(angle_of(v[0], v[1]), -pi, pi, 16));
     });
-    EXPECT_LT(deviation, allowed);
+    EXPECT_GT(probability, least_probability);
   }
 }
 
 TEST(SampleSphere, IsUniform) {
   // Archimedes: each coordinate is uniform.
   for (int axis = 0; axis < 3; axis++) {
-    const double deviation = chi_square_of_square(3, [&](Random& random) {
+    const double probability = chi_square_of_square(3, [&](Random& random) {
       const Vec3f v = sample_sphere(random);
       EXPECT_NEAR(length(v), 1, 1e-5f);
       return std::pair(part(v[axis], -1, 1, 16), part(angle_of(v[(axis + 1) % 3], v[(axis + 2) % 3]), -pi, pi, 16));
     });
-    EXPECT_LT(deviation, allowed);
+    EXPECT_GT(probability, least_probability);
   }
 }
 
+// Direction i of `count` taken by itself, for a random i, turn and shift.
+TEST(SphereDirection, IsUniform) {
+  const double probability = chi_square_of_square(8, [](Random& random) {
+    const size_t i = random.below(50);
+    const float u = random.uniform(), v = random.uniform();
+    const Vec3f direction = sphere_direction(i, 50, u, v);
+    EXPECT_NEAR(length(direction), 1, 1e-5f);
+    return std::pair(part(direction[2], -1, 1, 16), part(angle_of(direction[0], direction[1]), -pi, pi, 16));
+  });
+  EXPECT_GT(probability, least_probability);
+}
+
+TEST(CosineDirection, HasACosinesDensity) {
+  const double probability = chi_square_of_square(9, [](Random& random) {
+    const size_t i = random.below(50);
+    const float u = random.uniform(), v = random.uniform();
+    const Vec3f direction = cosine_direction(i, 50, u, v);
+    EXPECT_GE(direction[2], 0);
+    EXPECT_NEAR(length(direction), 1, 1e-5f);
+    return std::pair(part(direction[2] * direction[2], 0, 1, 16), part(angle_of(direction[0], direction[1]), -pi, pi, 16));
+  });
+  EXPECT_GT(probability, least_probability);
+}
+
 TEST(SampleDisc, IsUniform) {
-  const double deviation = chi_square_of_square(4, [](Random& random) {
+  const double probability = chi_square_of_square(4, [](Random& random) {
     const Vec3f v = sample_disc(random);
     EXPECT_EQ(v[2], 0);
     return std::pair(part(dot(v, v), 0, 1, 16), part(angle_of(v[0], v[1]), -pi, pi, 16));
   });
-  EXPECT_LT(deviation, allowed);
+  EXPECT_GT(probability, least_probability);
 }
 
 TEST(SampleTriangle, IsUniform) {
   // 16 strips along each of two sides cut the triangle into 256 congruent ones.
-  const double deviation = chi_square_of_square(5, [](Random& random) {
+  const double probability = chi_square_of_square(5, [](Random& random) {
     const Vec2f b = sample_triangle(random);
     EXPECT_GE(b[0], 0);
     EXPECT_GE(b[1], 0);
@@ -115,7 +137,7 @@ TEST(SampleTriangle, IsUniform) {
     if (diagonal > row + column) return std::pair(15 - row, 15 - column);
     return std::pair(row, std::min(column, 15 - row));
   });
-  EXPECT_LT(deviation, allowed);
+  EXPECT_GT(probability, least_probability);
 }
 
 TEST(PowerHeuristic, SharesASampleOutCompletely) {
@@ -146,7 +168,7 @@ TEST(Distribution, ChoosesByWeight) {
     EXPECT_NEAR(static_cast<double>(distribution.probability(i)), shares[i], 1e-6);
   }
   for (int i = 0; i < samples; i++) counts[distribution.sample(random)]++;
-  EXPECT_LT(chi_square(counts, shares), allowed);
+  EXPECT_GT(chi_square(counts, shares), least_probability);
 }
 
 // A million equal weights need more bits than the 24 of a float's fraction.
@@ -162,8 +184,8 @@ TEST(Distribution, ReachesEveryPartOfManyWeights) {
     counts[index / 1024]++;
     odd += index % 2;
   }
-  EXPECT_LT(chi_square_of_equal_bins(counts), allowed);
-  EXPECT_LT(chi_square_of_equal_bins({odd, samples - odd}), allowed);
+  EXPECT_GT(chi_square_of_equal_bins(counts), least_probability);
+  EXPECT_GT(chi_square_of_equal_bins({odd, samples - odd}), least_probability);
 }
 
 TEST(Distribution, OfNothingHasNoTotal) {

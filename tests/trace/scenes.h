@@ -16,6 +16,7 @@ inline Material lambertian(const Vec3f& albedo, const Vec3f& emission = {}) {
   material.base_color = {{albedo[0], albedo[1], albedo[2], 1}};
   material.emission = emission;
   material.metallic = 0;
+  material.specular = 0;
   return material;
 }
 
