@@ -7,6 +7,14 @@ namespace {
 /// Near surfaces that are followed one after the other; in a gap that is narrower they are taken as they are.
 constexpr int most_near = 6;
 
+/// Gloss as rough and as weak as this is counted as diffuse: it spreads light nearly as far, and rays for it would
+/// change the light by less than their noise.
+constexpr float rough_gloss = 0.5f, weak_gloss = 0.1f;
+
+bool counts_as_diffuse(const Bsdf& bsdf, const Bsdf::Albedo& albedo) {
+  return bsdf.roughness >= rough_gloss && max_component(albedo.gloss + albedo.repeated) <= weak_gloss;
+}
+
 /// Follows one ray from gloss to gloss, and through narrow places.
 class Gatherer {
  public:
@@ -32,8 +40,11 @@ class Gatherer {
       see(lights_.luminaire(hit), surfaces_.emission(hit, surface), [&] { return lights_.density(ray.origin, hit); });
       Bsdf followed = surface.bsdf;
       if (hit.distance >= near_ || reflections_ >= most_near) {
+        const Bsdf::Albedo albedo = surface.bsdf.albedo(hit.cosine);
+        const bool all = counts_as_diffuse(surface.bsdf, albedo);
         gathering_.diffuse[gathering_.diffuse_count++] = {hit.position, hit.facing_normal(),
-                                                          throughput_ * surface.bsdf.albedo(hit.cosine).diffuse};
+                                                          throughput_ * (all ? albedo.total() : albedo.diffuse)};
+        if (all) break;
         followed.diffuse = {};
       }
       if (!reflect(hit, followed, ray)) break;

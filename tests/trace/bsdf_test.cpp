@@ -65,7 +65,9 @@ TEST(Bsdf, LosesNothingInAWhiteFurnace) {
       for (int c = 0; c < 3; c++) {
         EXPECT_NEAR(sum[c], albedo[c], 0.0105) << name << " at " << angle;
         EXPECT_LE(albedo[c], 1 + 1e-5f) << name << " at " << angle;
-        if (white) EXPECT_NEAR(albedo[c], 1, 1e-5f) << name << " at " << angle;
+        if (white) {
+          EXPECT_NEAR(albedo[c], 1, 1e-5f) << name << " at " << angle;
+        }
       }
     }
   }
