@@ -251,6 +251,55 @@ TEST(ImportGltf, MaterialsAreRead) {
   EXPECT_EQ(materials[2].metallic, 0);
 }
 
+TEST(ImportGltf, GlossAndNormalMapsAreRead) {
+  Document document;
+  document.json["images"] = Json::array();
+  document.json["textures"] = Json::parse(R"([{"source": 0}, {"source": 1}, {"source": 2}, {"source": 3}])");
+  document.json["materials"] = Json::parse(R"([{}, {
+      "normalTexture": {"index": 0, "texCoord": 1, "scale": -0.5},
+      "extensions": {"KHR_materials_ior": {"ior": 1.8},
+        "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 1}},
+        "KHR_materials_specular": {"specularFactor": 0.25, "specularColorFactor": [2, 0.5, 0],
+          "specularTexture": {"index": 2}, "specularColorTexture": {"index": 3, "texCoord": 1}}}
+    }, {"normalTexture": {"index": 0}, "extensions": {"KHR_materials_unlit": {}}}])");
+  document.json["scenes"] = Json::array({Json::object()});
+  const std::vector<Material> materials = import(document).materials;
+  EXPECT_EQ(materials[0].specular, 1);
+  EXPECT_EQ(materials[0].specular_color, Vec3f::filled(1));
+  EXPECT_EQ(materials[0].ior, 1.5f);
+  EXPECT_EQ(materials[0].normal_texture.image, -1);
+  const Material& all = materials[1];
+  EXPECT_EQ(all.specular, 0.25f);
+  EXPECT_EQ(all.specular_color, (Vec3f{{2, 0.5f, 0}}));
+  EXPECT_EQ(all.ior, 1.8f);
+  EXPECT_EQ(all.normal_texture.image, 0);
+  EXPECT_EQ(all.normal_texture.texcoord, 1);
+  EXPECT_EQ(all.normal_scale, -0.5f);
+  EXPECT_EQ(all.transmission_texture.image, 1);
+  EXPECT_EQ(all.specular_texture.image, 2);
+  EXPECT_EQ(all.specular_color_texture.image, 3);
+  EXPECT_EQ(all.specular_color_texture.texcoord, 1);
+  // What is unlit has neither gloss nor bumps.
+  EXPECT_EQ(materials[2].specular, 0);
+  EXPECT_EQ(materials[2].normal_texture.image, -1);
+}
+
+// One line for each extension, by the first material that has it.
+TEST(ImportGltf, ExtensionsThatAreIgnoredAreNamed) {
+  Document document;
+  document.json["materials"] = Json::parse(R"([
+    {"extensions": {"KHR_materials_ior": {"ior": 1.3}, "KHR_materials_unlit": {}}},
+    {"name": "paint", "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
+    {"extensions": {"KHR_materials_sheen": {}, "KHR_materials_clearcoat": {}}}])");
+  document.json["scenes"] = Json::array({Json::object()});
+  Report report;
+  import(document, report);
+  EXPECT_EQ(report.warnings,
+            (std::vector<std::string>{
+                "materials[1] \"paint\" and 1 more: KHR_materials_clearcoat is ignored; the light is that without it",
+                "materials[2]: KHR_materials_sheen is ignored; the light is that without it"}));
+}
+
 TEST(ImportGltf, FactorsOutsideTheirRangeAreClamped) {
   Document document;
   document.json["scenes"] = Json::array({Json::object()});

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "lightwell/base/parallel.h"
+#include "lightwell/trace/paths.h"
+#include "lightwell/trace/sampling.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -178,6 +180,67 @@ TEST(Photons, PassAPaneOfGlassAndMetal) {
   // 4 standard errors of 0.5 / sqrt(20000), rounded up.
   EXPECT_NEAR(passed / emitted, 0.5, 0.015);
   EXPECT_NEAR(reflected / emitted, 0.5, 0.015);
+}
+
+/// A room of smooth plastic with a block of metal and a lamp; with `bumps`, of a normal map on its walls.
+Scene glossy_room(bool bumps) {
+  Mesh walls = room({{0, 0, 0}}, {{2, 1.5f, 3}});
+  for (size_t i = 0; i < walls.positions.size(); i++)
+    walls.texcoords[0].push_back({{i % 4 == 1 || i % 4 == 2 ? 1.0f : 0.0f, i % 4 > 1 ? 1.0f : 0.0f}});
+  Material plastic = lambertian({{0.7f, 0.5f, 0.3f}});
+  plastic.specular = 1;
+  plastic.roughness = 0.3f;
+  if (bumps) plastic.normal_texture.image = 0;
+  Scene scene = scene_of(walls, plastic);
+  Image map{32, 32, 3, {}};
+  Random random(7, 0);
+  for (int i = 0; i < 32 * 32; i++) {
+    const Vec3f disc = sample_disc(random) * 0.6f;  // normals lean by up to 37 degrees, 24 on average
+    const Vec3f normal{{disc[0], disc[1], std::sqrt(1 - dot(disc, disc))}};
+    for (int c = 0; c < 3; c++) map.pixels.push_back(static_cast<uint8_t>(std::lround(127.5f * (normal[c] + 1))));
+  }
+  scene.images = {map};
+  Material metal = lambertian(0.8f);
+  metal.metallic = 1;
+  metal.roughness = 0.3f;
+  add(scene, block({{1.2f, 0.2f, 1}}, {{1.7f, 0.6f, 1.6f}}), metal);
+  scene.lamps = {point_lamp({{0.5f, 1, 2.2f}}, {{1, 2, 3}})};
+  return scene;
+}
+
+/// Irradiance of the floor by photons that land there.
+Vec3d floor_by_photons(const World& world, uint64_t count) {
+  Vec3d sum{};
+  Flight flight;
+  for (uint64_t i = 0; i < count; i++)
+    for (PhotonWalk walk(world, 2, i); walk.next(flight);)
+      if (walk.end() && walk.end()->position[1] < 1e-3f) sum += flight.flux.cast<double>();
+  return sum / (6.0 * static_cast<double>(count));
+}
+
+Vec3d floor_by_paths(const World& world, uint64_t count) {
+  Vec3d sum{};
+  const LuminaireSet none;
+  for (uint64_t i = 0; i < count; i++) {
+    Random random(3, i);
+    const float x = 2 * random.uniform(), z = 3 * random.uniform();
+    DirectAndIndirect light(none);
+    trace_path(world, Receiver::irradiance({{x, 0, z}}, {{0, 1, 0}}), 64, random, light);
+    sum += (light.direct + light.indirect).cast<double>();
+  }
+  return sum / static_cast<double>(count);
+}
+
+// Both directions of following light meet where gloss, metal and bumps reflect it. Each side scatters by about its
+// mean, 0.5 % of 40000, and a photon lands on the floor more than once; four times both. Photons leave bumps out: such
+// strong ones reflect 3 % less of this lamp's light (docs/decisions/022-materials.md).
+TEST(Photons, AgreeWithPathsOnGlossAndBumps) {
+  for (const bool bumps : {false, true}) {
+    const Scene scene = glossy_room(bumps);
+    const auto world = world_of(scene);
+    const Vec3d photons = floor_by_photons(*world, 40000), paths = floor_by_paths(*world, 40000);
+    for (int c = 0; c < 3; c++) EXPECT_NEAR(photons[c] / paths[c], 1, bumps ? 0.05 : 0.025) << c;
+  }
 }
 
 }  // namespace

@@ -50,10 +50,15 @@ TEST(SurfaceCache, IsTheFurnacesClosedForm) {
   }
 }
 
-// A furnished room with metal against the path tracer: the mean over the floor. Cells blur light, and lose none.
+// A furnished room with plastic and metal against the path tracer: the mean over the floor. Cells blur light, and lose none.
 TEST(SurfaceCache, AgreesWithPathTracing) {
   Scene scene = scene_of(room(box.lo, box.hi), lambertian({{0.7f, 0.5f, 0.3f}}));
-  add(scene, block({{0.5f, 0.3f, 1}}, {{0.9f, 0.8f, 1.6f}}), lambertian(0.5f));
+  Material plastic = lambertian(0.3f);
+  plastic.specular = 1;
+  plastic.roughness = 0.2f;
+  scene.materials[0].specular = 1;  // rough: counted as diffuse
+  scene.materials[0].roughness = 0.8f;
+  add(scene, block({{0.5f, 0.3f, 1}}, {{0.9f, 0.8f, 1.6f}}), plastic);
   Material metal = lambertian(0.8f);
   metal.metallic = 1;
   metal.roughness = 0.4f;
