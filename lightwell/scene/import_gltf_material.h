@@ -7,8 +7,8 @@
 
 namespace lightwell {
 
-/// The materials of a document in its order. Factors outside their range are clamped with a warning; extensions that are
-/// not followed get one each.
+/// The materials of a document in its order. Factors outside their range are clamped with a warning; extensions that
+/// are not followed get one each.
 std::vector<Material> read_materials(const Json& document, Report& report);
 
 /// The image that a texture of a document is read from: EXT_texture_webp's, glTF's own, or another extension's where

@@ -29,8 +29,8 @@ struct Gathering {
 };
 
 /// Follows a ray. Gloss is followed by one sample of its lobe, and one of the luminaires, weighted by the power
-/// heuristic, as often as it reflects. So are all surfaces at which the ray arrives after less than `near` metres: a cache does not know
-/// their light well, since its cells are larger than what lies between.
+/// heuristic, as often as it reflects. So are all surfaces at which the ray arrives after less than `near` metres: a
+/// cache does not know their light well, since its cells are larger than what lies between.
 Gathering gather(const World& world, Ray ray, float near, Random& random);
 
 }  // namespace lightwell

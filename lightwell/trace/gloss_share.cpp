@@ -8,8 +8,8 @@
 namespace lightwell {
 namespace {
 
-// The axes of the table are roughness and the root of the cosine, since facets that are seen at grazing angles soon hide
-// each other.
+// The axes of the table are roughness and the root of the cosine, since facets that are seen at grazing angles soon
+// hide each other.
 constexpr int cells = 32;
 
 /// Where a number of [0, 1] lies between the nodes of an axis.
@@ -82,8 +82,8 @@ class Table {
     double normal = 0, grazing = 0;
     for (size_t c = 0; c < cells; c++) {
       const double lo = static_cast<double>(c) / cells, hi = static_cast<double>(c + 1) / cells;
-      const double whole = std::pow(hi, 4) - std::pow(lo, 4);               // 4 times the integral of root^3 ...
-      const double moment = (std::pow(hi, 5) - std::pow(lo, 5)) * 4 / 5;    // ... and of root^4
+      const double whole = std::pow(hi, 4) - std::pow(lo, 4);             // 4 times the integral of root^3 ...
+      const double moment = (std::pow(hi, 5) - std::pow(lo, 5)) * 4 / 5;  // ... and of root^4
       const double upper = (moment - lo * whole) * cells, lower = (hi * whole - moment) * cells;
       normal += static_cast<double>(row[c].normal) * lower + static_cast<double>(row[c + 1].normal) * upper;
       grazing += static_cast<double>(row[c].grazing) * lower + static_cast<double>(row[c + 1].grazing) * upper;

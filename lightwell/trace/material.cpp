@@ -53,8 +53,8 @@ struct MaterialPoint {
   }
 };
 
-MaterialPoint look_up(const Material& material, const std::vector<Image>& images,
-                      const std::array<Vec2f, 2>& texcoords, const Vec4f& vertex_color) {
+MaterialPoint look_up(const Material& material, const std::vector<Image>& images, const std::array<Vec2f, 2>& texcoords,
+                      const Vec4f& vertex_color) {
   const auto read = [&](const TextureLookup& texture, bool srgb) { return look_up(texture, images, texcoords, srgb); };
   const Vec4f base = material.base_color * vertex_color * read(material.base_color_texture, true);
   const Vec4f metal_rough = read(material.metallic_roughness_texture, false);

@@ -100,10 +100,8 @@ class Path {
 
 Receiver Receiver::irradiance(const Vec3f& position, const Vec3f& normal) {
   return {.position = position,
-          .shading = {.bsdf = Bsdf::lambertian(Vec3f::filled(pi)),
-                      .normal = normal,
-                      .shading_normal = normal,
-                      .out = normal}};
+          .shading = {
+              .bsdf = Bsdf::lambertian(Vec3f::filled(pi)), .normal = normal, .shading_normal = normal, .out = normal}};
 }
 
 Receiver Receiver::seen(const TraceScene& surfaces, const Hit& hit, const Surface& surface, const Vec3f& direction) {

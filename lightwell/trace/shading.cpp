@@ -7,7 +7,9 @@ namespace {
 /// The least cosine between a shading normal and the direction it is seen from.
 constexpr float least_cosine = 0.01f;
 
-Vec3f mirrored(const Vec3f& direction, const Vec3f& normal) { return direction - normal * (2 * dot(direction, normal)); }
+Vec3f mirrored(const Vec3f& direction, const Vec3f& normal) {
+  return direction - normal * (2 * dot(direction, normal));
+}
 
 }  // namespace
 

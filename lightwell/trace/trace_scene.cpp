@@ -263,8 +263,7 @@ void TraceScene::filter(const RTCFilterFunctionNArguments* arguments) {
   const uint64_t key = hash64(context.salt ^ hash64(uint64_t(instance) << 32 | hit.primID));
   const float chance = static_cast<float>(key >> 40) * 0x1p-24f;
   const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
-  const Surface surface =
-      scene.surface(instance, hit.primID, hit.u, hit.v, scene.cosine_of(ray, hit, instance));
+  const Surface surface = scene.surface(instance, hit.primID, hit.u, hit.v, scene.cosine_of(ray, hit, instance));
   if (chance < surface.coverage) return;
   arguments->valid[0] = 0;
   if (!tints_light(scene.material(instance)) || context.pane_count == Context::most_panes) return;

@@ -105,11 +105,10 @@ TEST(MakePack, NamesTheAttributesItLeavesOut) {
 // What a viewer needs to show a material as the file has it, also where the light does not know it.
 TEST(MakePack, KeepsTheExtensionsOfMaterials) {
   Document document = sheet_document();
-  const Json extensions = {
-      {"KHR_materials_specular", {{"specularFactor", 0.25}, {"specularColorFactor", {1, 0.5, 0}}}},
-      {"KHR_materials_ior", {{"ior", 1.8}}},
-      {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
-      {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}};
+  const Json extensions = {{"KHR_materials_specular", {{"specularFactor", 0.25}, {"specularColorFactor", {1, 0.5, 0}}}},
+                           {"KHR_materials_ior", {{"ior", 1.8}}},
+                           {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
+                           {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}};
   document.json["materials"][0]["extensions"] = extensions;
   for (const auto& extension : extensions.items()) document.json["extensionsUsed"].push_back(extension.key());
   const OpenedPack opened = open(pack(std::move(document)).file);

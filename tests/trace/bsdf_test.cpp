@@ -37,8 +37,7 @@ TEST(Bsdf, SamplesEveryPartOfTheHemisphereWithItsDensity) {
     if (white && bsdf.glossy()) continue;  // the colours choose other shares of the lobes
     for (const float angle : {0.0f, 45.0f, 80.0f}) {
       const Vec3f out = tilted(angle);
-      const auto shares =
-          DirectionBins::shares([&](const Vec3f& in) { return bsdf.evaluate(up, out, in).density; });
+      const auto shares = DirectionBins::shares([&](const Vec3f& in) { return bsdf.evaluate(up, out, in).density; });
       std::vector<int> counts(shares.size());
       Random random(3, 0);
       for (int i = 0; i < 50000; i++) {
@@ -50,9 +49,9 @@ TEST(Bsdf, SamplesEveryPartOfTheHemisphereWithItsDensity) {
   }
 }
 
-// In a furnace of radiance 1 a white surface sends 1 to everywhere, and a coloured one its albedo, never more. The table
-// of gloss_share() is good to 0.003; 40000 samples whose weights scatter by up to 0.5 to 0.0025, of which three times
-// is allowed.
+// In a furnace of radiance 1 a white surface sends 1 to everywhere, and a coloured one its albedo, never more. The
+// table of gloss_share() is good to 0.003; 40000 samples whose weights scatter by up to 0.5 to 0.0025, of which three
+// times is allowed.
 TEST(Bsdf, LosesNothingInAWhiteFurnace) {
   for (const auto& [name, bsdf, white] : all_bsdfs({0.0f, 0.3f, 0.6f, 1.0f})) {
     for (const float angle : {0.0f, 45.0f, 70.0f, 85.0f}) {

@@ -8,8 +8,8 @@
 namespace lightwell {
 
 /// Pearson's chi-square test: the probability that samples of the expected shares would be as far from them as the
-/// counted ones, or farther. Bins that expect fewer than 10 samples are counted as one; without an expectation they must
-/// stay empty: 0 when one has a sample.
+/// counted ones, or farther. Bins that expect fewer than 10 samples are counted as one; without an expectation they
+/// must stay empty: 0 when one has a sample.
 inline double chi_square(const std::vector<int>& counts, const std::vector<double>& shares) {
   double total = 0;
   for (const int count : counts) total += count;

@@ -37,8 +37,8 @@ TEST(GlossShare, IsTheIntegralOfTheLobe) {
         const float radius = std::sqrt(1 - height * height);
         const Vec3f in{{radius * std::cos(turn), radius * std::sin(turn), height}};
         const Vec3f half = normalized(in + out);
-        const float lobe = ggx_facets(half[2], alpha) /
-                           (4 * cosine * (1 + ggx_hidden(cosine, alpha) + ggx_hidden(height, alpha)));
+        const float lobe =
+            ggx_facets(half[2], alpha) / (4 * cosine * (1 + ggx_hidden(cosine, alpha) + ggx_hidden(height, alpha)));
         const double share = static_cast<double>(lobe * 2 * pi / (heights * turns));
         const double fresnel = static_cast<double>(schlick_grazing(dot(half, out)));
         normal += share * (1 - fresnel);

@@ -155,18 +155,16 @@ TEST(LightSamplers, EmitFromLampsEvenlyIntoTheirCones) {
   Scene scene = scene_of(floor, lambertian(0.5f));
   scene.lamps = {point_lamp({{0, 1, 0}}, Vec3f::filled(1))};
   const auto point = world_of(scene);
-  EXPECT_GT(chi_square_of(256,
-                          [&](Random& random) {
-                            return bin_between(Frame(up), point->lights().emit(random).ray.direction, -1);
-                          }),
-            least_probability);
+  EXPECT_GT(
+      chi_square_of(
+          256, [&](Random& random) { return bin_between(Frame(up), point->lights().emit(random).ray.direction, -1); }),
+      least_probability);
   Scene with_spot = scene_of(floor, lambertian(0.5f));
   with_spot.lamps = {spot_lamp({{0, 1, 0}}, 1, 0.3f, 0.8f)};
   const auto spot = world_of(with_spot);
   EXPECT_GT(chi_square_of(256,
                           [&](Random& random) {
-                            return bin_between(Frame(-up), spot->lights().emit(random).ray.direction,
-                                               std::cos(0.8f));
+                            return bin_between(Frame(-up), spot->lights().emit(random).ray.direction, std::cos(0.8f));
                           }),
             least_probability);
 }
@@ -176,14 +174,14 @@ TEST(LightSamplers, EndPhotonsByTheWindowOfTheRange) {
   Scene scene = scene_of(quad({{-1, -9, -1}}, {{0, 0, 2}}, {{2, 0, 0}}), lambertian(0.5f));
   scene.lamps = {point_lamp({{0, 1, 0}}, Vec3f::filled(1), 3)};
   const auto world = world_of(scene);
-  EXPECT_GT(chi_square_of(64,
-                          [&](Random& random) {
-                            return part(std::pow(world->lights().emit(random).ray.far / 3, 4.0f), 0, 1, 64);
-                          }),
-            least_probability);
+  EXPECT_GT(
+      chi_square_of(
+          64, [&](Random& random) { return part(std::pow(world->lights().emit(random).ray.far / 3, 4.0f), 0, 1, 64); }),
+      least_probability);
 }
 
-// A sun's and a sky's photons fill the cross-section of the scene's sphere evenly; the sky's come from everywhere alike.
+// A sun's and a sky's photons fill the cross-section of the scene's sphere evenly; the sky's come from everywhere
+// alike.
 TEST(LightSamplers, FillTheBeamsOfDistantSources) {
   const Mesh box = room({{-1, -1, -1}}, {{1, 1, 1}});
   const Vec3f down = normalized(Vec3f{{1, -2, 0.5f}});
@@ -202,11 +200,10 @@ TEST(LightSamplers, FillTheBeamsOfDistantSources) {
     EXPECT_GT(chi_square_of(256, bin_of_disc), least_probability);
   }
   const auto world = world_of(cloudy);
-  EXPECT_GT(chi_square_of(256,
-                          [&](Random& random) {
-                            return bin_between(Frame(up), world->lights().emit(random).ray.direction, -1);
-                          }),
-            least_probability);
+  EXPECT_GT(
+      chi_square_of(
+          256, [&](Random& random) { return bin_between(Frame(up), world->lights().emit(random).ray.direction, -1); }),
+      least_probability);
 }
 
 }  // namespace

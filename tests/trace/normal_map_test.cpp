@@ -29,7 +29,8 @@ TEST(NormalMap, FollowsMirroredAndTurnedCoordinates) {
   const Vec3f direction = normalized(Vec3f{{0.5f, 0.25f, 1}});
   std::array<Vec2f, 3> mirrored = upright, turned = upright;
   for (Vec2f& t : mirrored) t[0] = -t[0];
-  EXPECT_NEAR(length(mapped_normal(z, corners, mirrored, texel(direction), 1) - direction * Vec3f{{-1, 1, 1}}), 0, 1e-6f);
+  EXPECT_NEAR(length(mapped_normal(z, corners, mirrored, texel(direction), 1) - direction * Vec3f{{-1, 1, 1}}), 0,
+              1e-6f);
   // A quarter turn: u runs along y, and up in the picture is against x.
   for (Vec2f& t : turned) t = {{-t[1], t[0]}};
   const Vec3f expected = normalized(Vec3f{{-0.25f, 0.5f, 1}});

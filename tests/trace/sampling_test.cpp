@@ -110,7 +110,8 @@ TEST(CosineDirection, HasACosinesDensity) {
     const Vec3f direction = cosine_direction(i, 50, u, v);
     EXPECT_GE(direction[2], 0);
     EXPECT_NEAR(length(direction), 1, 1e-5f);
-    return std::pair(part(direction[2] * direction[2], 0, 1, 16), part(angle_of(direction[0], direction[1]), -pi, pi, 16));
+    return std::pair(part(direction[2] * direction[2], 0, 1, 16),
+                     part(angle_of(direction[0], direction[1]), -pi, pi, 16));
   });
   EXPECT_GT(probability, least_probability);
 }

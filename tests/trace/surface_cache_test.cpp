@@ -50,7 +50,8 @@ TEST(SurfaceCache, IsTheFurnacesClosedForm) {
   }
 }
 
-// A furnished room with plastic and metal against the path tracer: the mean over the floor. Cells blur light, and lose none.
+// A furnished room with plastic and metal against the path tracer: the mean over the floor. Cells blur light, and lose
+// none.
 TEST(SurfaceCache, AgreesWithPathTracing) {
   Scene scene = scene_of(room(box.lo, box.hi), lambertian({{0.7f, 0.5f, 0.3f}}));
   Material plastic = lambertian(0.3f);
