@@ -72,7 +72,9 @@ TEST(ImportGltf, SharedFilesBecomeScenes) {
       Report report;
       const Scene scene = import_file(entry.path(), report);
       EXPECT_FALSE(scene.instances.empty());
-      EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
+      // Some have coats, which are ignored by name.
+      for (const std::string& warning : report.warnings)
+        EXPECT_NE(warning.find("is ignored; the light is that without it"), std::string::npos) << warning;
     }
 }
 
