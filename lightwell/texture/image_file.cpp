@@ -35,7 +35,8 @@ Result<void> check_image_size(uint64_t width, uint64_t height) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   if (width == 0 || height == 0) return fail(size, "an empty image");
   if (width > max_image_side || height > max_image_side || width * height > max_image_pixels)
-    return fail(ErrorKind::limit, size, "an image may have " + std::to_string(max_image_side) + " pixels a side");
+    return fail(ErrorKind::limit, size,
+                "an image may have " + std::to_string(max_image_side) + " pixels a side, and 64 million in all");
   return {};
 }
 

@@ -12,7 +12,7 @@ namespace lightwell {
 
 /// The largest image that is accepted; checked before memory is allocated.
 constexpr uint64_t max_image_side = 16384;
-constexpr uint64_t max_image_pixels = uint64_t(1) << 28;
+constexpr uint64_t max_image_pixels = uint64_t(1) << 26;
 
 /// Fails when an image of this size is empty or beyond the limits.
 Result<void> check_image_size(uint64_t width, uint64_t height);

@@ -167,11 +167,11 @@ TEST(Jpeg, TurnsInksIntoColour) {
 
 // A small file must not make its reader ask for a gigabyte.
 TEST(ImageFile, HoldsSizesAgainstTheFile) {
-  EXPECT_FALSE(read_png(hand_made_png(16384, 16384, 8, 6, std::vector<uint8_t>(16384))));
+  EXPECT_FALSE(read_png(hand_made_png(8192, 8192, 8, 6, std::vector<uint8_t>(8192))));
   auto jpeg = write_jpeg(constant(8, 8, {5}), 90);
   const std::vector<uint8_t> start_of_frame = {0xff, 0xc0};
   const auto frame = std::search(jpeg.begin(), jpeg.end(), start_of_frame.begin(), start_of_frame.end());
-  for (int i = 5; i < 9; i += 2) frame[i] = 0x20;  // 8200 pixels a side
+  for (int i = 5; i < 9; i += 2) frame[i] = 0x1f;  // 7944 pixels a side
   const auto read = read_jpeg(jpeg);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().reason.find("too short"), std::string::npos) << read.error().reason;
@@ -192,7 +192,7 @@ TEST(WebP, ReadsColourWithAndWithoutAlpha) {
   expect_total_on_prefixes(lossless_webp(noise(5, 5, 4)));
 }
 
-// 16383 pixels a side would be a gigabyte; a header is all there is.
+// 8192 pixels a side would be a quarter of a gigabyte; a header is all there is.
 TEST(WebP, MemoryNeedsBytes) {
   ByteWriter file;
   file.append(as_bytes("RIFF"));
@@ -200,7 +200,7 @@ TEST(WebP, MemoryNeedsBytes) {
   file.append(as_bytes("WEBPVP8L"));
   file.u32(10);
   file.u8(0x2f);
-  file.u32(16382 | 16382 << 14);
+  file.u32(8191 | 8191 << 14);
   file.append(std::vector<uint8_t>(5));
   const auto read = read_webp(file.bytes());
   ASSERT_FALSE(read);
@@ -212,7 +212,8 @@ TEST(ImageFile, RefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(read_image_file(as_bytes("GIF89a")));
   EXPECT_FALSE(check_image_size(0, 5));
   EXPECT_FALSE(check_image_size(16385, 1));
-  EXPECT_TRUE(check_image_size(16384, 16384));
+  EXPECT_TRUE(check_image_size(16384, 4096));
+  EXPECT_FALSE(check_image_size(16384, 4097));
 }
 
 TEST(ImageFile, SurvivesFlippedBits) {
