@@ -20,6 +20,10 @@ struct Close {
 };
 using File = std::unique_ptr<std::FILE, Close>;
 
+// Of a gzip file: what texts reach, and what any small file may inflate to.
+constexpr size_t most_inflation = 200;
+constexpr size_t free_inflation = size_t(1) << 24;
+
 std::string reason(int code) { return std::generic_category().message(code); }
 
 // Inflates all members of a gzip file, which follow one another (RFC 1952, section 2.2).
@@ -157,7 +161,7 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool i
   }
   if (std::ferror(file.get())) return fail({path.string(), "", "cannot be read", ErrorKind::io});
   if (!inflate || bytes.size() < 2 || bytes[0] != 0x1f || bytes[1] != 0x8b) return bytes;
-  auto plain = inflate_gzip(bytes, limit);
+  auto plain = inflate_gzip(bytes, std::min(limit, free_inflation + most_inflation * bytes.size()));
   if (!plain) return fail(in_file(plain.error(), path.string()));
   return plain;
 }

@@ -13,7 +13,8 @@ namespace lightwell {
 // All functions may be called from any thread. Their errors name the file.
 
 /// Reads a whole file; gzipped content (recognised by its first bytes) is inflated when `inflate` is set. More than
-/// `limit` bytes, read or inflated, are an error, so that a small hostile file cannot exhaust memory.
+/// `limit` bytes, read or inflated, are an error, as is content of more than 16 MiB that inflates to more than 200
+/// times the file, so that a small hostile file cannot exhaust memory.
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate = false,
                                        size_t limit = size_t(4) << 30);
 

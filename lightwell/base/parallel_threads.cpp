@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -17,16 +19,29 @@ void parallel_for(size_t count, size_t grain, int threads, const std::function<v
   if (threads <= 0) threads = default_threads();
   const int used = static_cast<int>(std::min<size_t>(chunks, static_cast<size_t>(threads)));
   std::atomic<size_t> next = 0;
-  auto work = [&](int thread) {
-    for (size_t chunk; (chunk = next++) < chunks;) {
-      if (stop && stop()) return;
-      body(chunk * grain, std::min(count, (chunk + 1) * grain), thread);
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto work = [&](int thread) {
+    try {
+      for (size_t chunk; (chunk = next++) < chunks;) {
+        if (stop && stop()) return;
+        body(chunk * grain, std::min(count, (chunk + 1) * grain), thread);
+      }
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      if (!failure) failure = std::current_exception();
+      next = chunks;
     }
   };
   std::vector<std::thread> others;
-  for (int i = 1; i < used; i++) others.emplace_back(work, i);
+  try {
+    for (int i = 1; i < used; i++) others.emplace_back(work, i);
+  } catch (const std::exception&) {
+    // The system has no more threads, or no memory for them: those that there are do the work.
+  }
   work(0);
   for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace lightwell

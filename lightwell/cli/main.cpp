@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <exception>
+#include <new>
+#include <stdexcept>
+
 #include "lightwell/cli/command.h"
 
 namespace {
@@ -24,6 +28,19 @@ int refuse(const CLI::App& program, const std::string& reason) {
   std::fprintf(stderr, "lightwell: %s%s; see `lightwell %s--help`\n", command.empty() ? "" : (command + ": ").c_str(),
                reason.c_str(), command.empty() ? "" : (command + " ").c_str());
   return 2;
+}
+
+// Runs the command. Where memory ends, what is being written goes away and one line is said.
+int run(const std::function<int()>& command, const lightwell::Console& console) {
+  try {
+    return command();
+  } catch (const std::bad_alloc&) {
+    return console.fail({"", "", "the memory is not enough for this"});
+  } catch (const std::length_error&) {
+    return console.fail({"", "", "the memory is not enough for this"});
+  } catch (const std::exception& exception) {
+    return console.fail({"", "", exception.what()});
+  }
 }
 
 }  // namespace
@@ -56,7 +73,7 @@ int main(int argc, char** argv) {
     return error.get_exit_code() == 0 ? program.exit(error) : refuse(program, complaint(program, error));
   }
   if (!chosen) return refuse(program, "a command is missing");
-  const int status = chosen();
+  const int status = run(chosen, console);
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return console.fail({"stdout", "", "cannot be written"});
   return status;
 }
