@@ -47,6 +47,10 @@ template <int N>
 std::vector<Vec<float, N>> read_vectors(const AccessorData& data, const std::vector<uint32_t>* only = nullptr,
                                         float filler = 0);
 
+/// The elements of an accessor of `count` times three numbers that may be sparse, or all zeros for want of a buffer
+/// view.
+Result<std::vector<Vec3f>> read_sparse_vectors(const Document& document, int accessor, size_t count);
+
 /// The elements of an accessor of unsigned scalars; empty for other types.
 std::vector<uint32_t> widen_indices(const AccessorData& data);
 /// The same for an accessor; fails for other types.

@@ -31,6 +31,8 @@ bool is_gltf(Bytes bytes);
 /// removed with a warning. Everything else is kept, names and extras included.
 Result<Document> read_document(Bytes bytes, const std::filesystem::path& folder, Report& report);
 
+struct Pose;
+
 /// A primitive's topology, with glTF's numbers.
 enum class PrimitiveMode { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
 PrimitiveMode primitive_mode(const Json& primitive);
@@ -40,6 +42,9 @@ bool has_triangles(const Json& primitive);
 /// The triangles of a primitive (a list, strip or fan), with quantised and normalised attributes converted to floats.
 /// Fails for lines and points, for positions that are not finite and for indices out of range. Of a primitive with more
 /// vertices than corners only the used vertices are read, so that many primitives may share one large accessor.
+/// Vertices are in the given pose.
+Result<Mesh> read_primitive(const Document& document, int mesh, int primitive, const Pose& pose, Report& report);
+/// The same in the pose at rest.
 Result<Mesh> read_primitive(const Document& document, int mesh, int primitive, Report& report);
 
 /// The stored bytes of an image: a buffer view, a data URI or a file below the document's folder.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <draco/compression/decode.h>
+#include <draco/mesh/mesh.h>
 
 #include <cstring>
 #include <map>
 
 #include "lightwell/gltf/accessor.h"
+#include "lightwell/gltf/draco_mesh.h"
 #include "lightwell/gltf/expand.h"
 #include "lightwell/gltf/extensions.h"
 
@@ -14,19 +15,6 @@ namespace {
 constexpr const char* extension_name = "KHR_draco_mesh_compression";
 constexpr int array_buffer = 34962;
 constexpr int element_array_buffer = 34963;
-
-Result<std::unique_ptr<draco::Mesh>> decode_mesh(Bytes bytes, const std::string& name) {
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  try {
-    draco::Decoder decoder;
-    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!mesh.ok()) return fail(name, "damaged Draco data");
-    return std::move(mesh).value();
-  } catch (const std::exception&) {
-    return fail(name, "damaged Draco data");
-  }
-}
 
 /// Writes the values of all points as components of type T, elements `stride` bytes apart. False when a value is
 /// damaged.
@@ -66,7 +54,7 @@ class Expansion {
     const int view = index_of(draco, "bufferView");
     if (view < 0) return fail(name, "has no bufferView");
     LW_TRY(bytes, locate_range(document_, document_.json["bufferViews"][static_cast<size_t>(view)], name));
-    LW_TRY(mesh, decode_mesh(bytes, name));
+    LW_TRY(mesh, decode_draco(bytes, name));
     if (primitive.contains("indices")) LW_CHECK(expand_indices(*mesh, primitive["indices"], view, name));
     if (!member(draco, "attributes").is_object()) return fail(name, "has no attributes");
     for (const auto& [semantic, id] : member(draco, "attributes").items())

@@ -4,6 +4,7 @@
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
 #include "lightwell/gltf/extensions.h"
+#include "lightwell/gltf/pose.h"
 
 namespace lightwell {
 namespace {
@@ -38,8 +39,8 @@ std::vector<uint32_t> compact(std::vector<uint32_t>& corners) {
 /// Reads one primitive, attribute by attribute.
 class PrimitiveReader {
  public:
-  PrimitiveReader(const Document& document, const Json& primitive, std::string name, Report& report)
-      : document_(document), primitive_(primitive), name_(std::move(name)), report_(report) {}
+  PrimitiveReader(const Document& document, const Json& primitive, std::string name, const Pose& pose, Report& report)
+      : document_(document), primitive_(primitive), name_(std::move(name)), pose_(pose), report_(report) {}
 
   Result<Mesh> read() {
     if (!has_triangles(primitive_)) return fail(name_, "is not made of triangles");
@@ -53,6 +54,7 @@ class PrimitiveReader {
     LW_CHECK(read_texcoords("TEXCOORD_0", mesh_.texcoords[0]));
     LW_CHECK(read_texcoords("TEXCOORD_1", mesh_.texcoords[1]));
     LW_CHECK(read_colors());
+    LW_CHECK(apply_pose(document_, primitive_, name_, pose_, vertex_count_, only_, mesh_));
     return std::move(mesh_);
   }
 
@@ -161,6 +163,7 @@ class PrimitiveReader {
   const Document& document_;
   const Json& primitive_;
   const std::string name_;
+  const Pose& pose_;
   Report& report_;
   Mesh mesh_;
   size_t vertex_count_ = 0;
@@ -178,13 +181,17 @@ PrimitiveMode primitive_mode(const Json& primitive) {
 bool has_triangles(const Json& primitive) { return primitive_mode(primitive) >= PrimitiveMode::triangles; }
 
 Result<Mesh> read_primitive(const Document& document, int mesh, int primitive, Report& report) {
+  return read_primitive(document, mesh, primitive, Pose(), report);
+}
+
+Result<Mesh> read_primitive(const Document& document, int mesh, int primitive, const Pose& pose, Report& report) {
   const std::string name = element_name("meshes", static_cast<size_t>(std::max(0, mesh))) + "." +
                            element_name("primitives", static_cast<size_t>(std::max(0, primitive)));
   const Json& meshes = member(document.json, "meshes");
   const Json& json =
       element(member(element(meshes, static_cast<size_t>(mesh)), "primitives"), static_cast<size_t>(primitive));
   if (!json.is_object()) return fail(name, "does not exist");
-  return PrimitiveReader(document, json, name, report).read();
+  return PrimitiveReader(document, json, name, pose, report).read();
 }
 
 }  // namespace lightwell

@@ -84,6 +84,21 @@ Result<void> expand_accessor(Document& document, size_t index, Budget& budget) {
 
 }  // namespace
 
+Result<std::vector<Vec3f>> read_sparse_vectors(const Document& document, int accessor, size_t count) {
+  const Json& json = element(member(document.json, "accessors"), static_cast<size_t>(accessor));
+  const std::string name = element_name("accessors", static_cast<size_t>(std::max(0, accessor)));
+  AccessorData data;
+  data.type = element_type(json);
+  data.stride = data.type.size();
+  data.count = count;
+  if (number(json, "count", 0) != static_cast<double>(count)) return fail(name, "has another count than POSITION");
+  if (data.type.rows != 3 || data.type.columns != 1) return fail(name, "is of a type that it cannot have");
+  LW_TRY(elements, dense_elements(document, json, data.count, data.stride, name));
+  if (json.contains("sparse")) LW_CHECK(apply_sparse(document, json, elements, data.stride, name));
+  data.bytes = elements;
+  return read_vectors<3>(data);
+}
+
 Result<void> expand_sparse(Document& document, Budget& budget) {
   for (const int accessor : drawn_accessors(document.json))
     LW_CHECK(expand_accessor(document, static_cast<size_t>(accessor), budget));
