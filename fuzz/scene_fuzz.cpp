@@ -26,9 +26,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Bytes bytes(data, size);
   Report report;
   if (is_ply(bytes)) {
-    const auto mesh = read_ply(bytes, report);
-    if (mesh) check(*mesh);
-    require(mesh || mesh.error().message().find('\n') == std::string::npos);
+    const auto content = read_ply(bytes, report);
+    if (content)
+      for (const PlyPart& part : content->parts) check(part.mesh);
+    require(content || content.error().message().find('\n') == std::string::npos);
   } else if (is_obj(bytes)) {
     const auto document = obj_document(bytes, "/nonexistent", report);
     require(document || document.error().message().find('\n') == std::string::npos);

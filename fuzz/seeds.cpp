@@ -30,6 +30,11 @@ constexpr std::string_view ply_text =
     "property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n4 0 1 2 3\n";
 
+constexpr std::string_view textured_ply_text =
+    "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property double z\nelement face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+    "property int texnumber\nend_header\n0 0 9e6\n1 0 9e6\n0 1 9e6\n3 0 1 2 6 0 0 1 0 1 1 0\n";
+
 constexpr std::string_view obj_text =
     "mtllib none.mtl\no square\nv 0 0 0\nv 1 0 0 0.5 0.5 1\nv 1 1 \\\n0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\nusemtl a "
     "b\n"
@@ -96,6 +101,7 @@ void plant_scenes(Seeds& seeds) {
     if (entry.path().extension() == ".glb") seeds.plant("gltf", read_file(entry.path().string()).value());
   seeds.plant("scene", write_ply(seamed_sphere(6, 8)));
   seeds.plant("scene", as_bytes(ply_text));
+  seeds.plant("scene", as_bytes(textured_ply_text));
   seeds.plant("scene", as_bytes(obj_text));
 }
 

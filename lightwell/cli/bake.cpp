@@ -147,7 +147,7 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   bake.light_seconds = watch.lap();
   const float extent = length(bake.world->surfaces().focus().size());
   bake.world.reset();
-  if (bake.scene.cameras.empty()) add_camera(bake.scene.document, bake.camera, 1e-3f * extent);
+  if (bake.scene.cameras.empty()) add_camera(bake.scene.document, bake.camera, 1e-3f * extent, bake.scene.origin);
   LW_TRY(file, make_pack(bake.scene, bake.light, options.pack, progress, bake.report, bake.pack_statistics));
   bake.file = std::move(file);
   bake.geometry_seconds = watch.lap();

@@ -43,14 +43,14 @@ Result<Outcome> write(const Options& options, Report& report) {
   LW_CHECK(refuse_builtin_scene(options.pack));
   LW_TRY(pack, OpenedPack::open_file(options.pack));
   LW_TRY(document, unpack_document(pack, options.level, report));
-  LW_TRY(scene, scene_from_document(document, "", report));
+  LW_TRY(scene, scene_from_document(document, "", report, pack.identity().origin));
   Outcome outcome;
   for (const Primitive& primitive : scene.primitives) {
     outcome.vertices += primitive.mesh.positions.size();
     outcome.faces += primitive.mesh.faces.size();
   }
   if (options.output.ends_with(".ply")) {
-    LW_CHECK(write_file(options.output, write_ply(merge(scene))));
+    LW_CHECK(write_file(options.output, write_ply(merge(scene), scene.origin)));
     return outcome;
   }
   LW_TRY(glb, write_glb(std::move(document), report));

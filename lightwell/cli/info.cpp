@@ -49,6 +49,7 @@ Result<Figures> describe(const std::string& path, bool blocks) {
   const Json& scenes = member(json, "scenes");
   Figures figures{{"scene", text(element(scenes, static_cast<size_t>(number(json, "scene", 0))), "name")},
                   {"id", to_text(directory.id)},
+                  {"origin", pack.identity().origin.e},
                   {"streams", Figures::array()},
                   {"meshes", Figures::array()},
                   {"grids", Figures::array()},

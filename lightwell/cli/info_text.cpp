@@ -77,7 +77,9 @@ std::string lines(const Figures& list, const std::string& name, std::string (*te
 
 std::string info_text(const Figures& figures) {
   const std::string scene = figures["scene"].get<std::string>();
+  const bool moved = figures["origin"] != Figures{0.0, 0.0, 0.0};
   return "scene: " + (scene.empty() ? "(no name)" : scene) + "\n" + "id: " + figures["id"].get<std::string>() + "\n" +
+         (moved ? "origin: " + joined(figures["origin"], " ") + " m\n" : "") +
          lines(figures["meshes"], "mesh", mesh_text) + lines(figures["grids"], "grid", grid_text) +
          lines(figures["lamps"], "lamp", lamp_text) + lines(figures["streams"], "stream", stream_text);
 }

@@ -16,7 +16,8 @@ namespace {
 Result<OpenedScene> open_pack(const std::string& path, bool has_environment, const MeshLevel& level, Report& report) {
   LW_TRY(pack, OpenedPack::open_file(path));
   LW_TRY(document, unpack_document(pack, level, report));
-  LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report));
+  LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report,
+                                    pack.identity().origin));
   if (contents_of(pack.grids()).environment && !has_environment && EnvironmentLight(scene.environment).black())
     report.warn("environment: the pack has its light but not its picture: give it with --environment");
   return OpenedScene{std::move(scene), std::move(pack)};

@@ -13,7 +13,7 @@ struct Options {
   bool without_environment = false;
 };
 
-Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ProbePoint>& points, Progress& progress,
+Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ListedPoint>& points, Progress& progress,
                                     Report& report) {
   LW_TRY(opened, open_scene(options.scene, report));
   LW_TRY(world, ready(opened, options.scene.threads, progress, report));
@@ -32,7 +32,7 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Pr
     field = std::move(found);
     light.field = &field;
   }
-  return probe(*world, points, probe_options, progress);
+  return probe(*world, counted_from(world->scene().origin, points), probe_options, progress);
 }
 
 nlohmann::ordered_json figures(const std::vector<ProbeValue>& values) {

@@ -5,12 +5,15 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string_view>
 
 #include "lightwell/base/file.h"
 
 namespace lightwell {
 namespace {
+
+constexpr double most = std::numeric_limits<float>::max();  // of a number
 
 constexpr std::array<std::string_view, 6> wanted = {"x", "y", "z", "nx", "ny", "nz"};
 
@@ -42,30 +45,32 @@ Result<std::array<size_t, 6>> find_columns(std::string_view header) {
   return columns;
 }
 
-Result<ProbePoint> read_point(std::string_view line, const std::array<size_t, 6>& columns) {
+Result<ListedPoint> read_point(std::string_view line, const std::array<size_t, 6>& columns) {
   const std::vector<std::string_view> fields = split(line, ',');
-  std::array<float, 6> numbers{};
+  std::array<double, 6> numbers{};
   for (size_t i = 0; i < numbers.size(); i++) {
     if (columns[i] >= fields.size()) return fail("", "has too few columns");
     const std::string field(trimmed(fields[columns[i]]));
     char* end = nullptr;
-    numbers[i] = std::strtof(field.c_str(), &end);
-    if (field.empty() || *end != 0 || !std::isfinite(numbers[i])) return fail("", "'" + field + "' is not a number");
+    numbers[i] = std::strtod(field.c_str(), &end);
+    if (field.empty() || *end != 0 || !(std::abs(numbers[i]) <= most))
+      return fail("", "'" + field + "' is not a number");
   }
-  ProbePoint point{{{numbers[0], numbers[1], numbers[2]}}, normalized(Vec3f{{numbers[3], numbers[4], numbers[5]}})};
+  const Vec3d normal = normalized(Vec3d{{numbers[3], numbers[4], numbers[5]}});
+  ListedPoint point{{{numbers[0], numbers[1], numbers[2]}}, normal.cast<float>()};
   if (!(length(point.normal) > 0)) return fail("", "its normal has no direction");
   return point;
 }
 
 }  // namespace
 
-Result<std::vector<ProbePoint>> read_probe_points(const std::string& path) {
+Result<std::vector<ListedPoint>> read_probe_points(const std::string& path) {
   LW_TRY(bytes, read_file(path));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::vector<std::string_view> lines = split(text, '\n');
   auto columns = find_columns(lines.front());
   if (!columns) return fail(in_file(columns.error(), path));
-  std::vector<ProbePoint> points;
+  std::vector<ListedPoint> points;
   for (size_t i = 1; i < lines.size(); i++) {
     if (trimmed(lines[i]).empty()) continue;
     auto point = read_point(lines[i], *columns);
@@ -75,12 +80,19 @@ Result<std::vector<ProbePoint>> read_probe_points(const std::string& path) {
   return points;
 }
 
-std::string probe_csv(const std::vector<ProbePoint>& points, const std::vector<ProbeValue>& values) {
+std::vector<ProbePoint> counted_from(const Vec3d& origin, const std::vector<ListedPoint>& points) {
+  std::vector<ProbePoint> counted;
+  for (const ListedPoint& point : points) counted.push_back({(point.position - origin).cast<float>(), point.normal});
+  return counted;
+}
+
+std::string probe_csv(const std::vector<ListedPoint>& points, const std::vector<ProbeValue>& values) {
   std::string csv = "x,y,z,nx,ny,nz,r,g,b,stderr\n";
   char line[256];
   for (size_t i = 0; i < points.size(); i++) {
-    const Vec3f &p = points[i].position, &n = points[i].normal, &e = values[i].irradiance;
-    std::snprintf(line, sizeof line, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", p[0], p[1], p[2], n[0],
+    const Vec3d& p = points[i].position;
+    const Vec3f &n = points[i].normal, &e = values[i].irradiance;
+    std::snprintf(line, sizeof line, "%.12g,%.12g,%.12g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", p[0], p[1], p[2], n[0],
                   n[1], n[2], e[0], e[1], e[2], values[i].standard_error);
     csv += line;
   }

@@ -55,6 +55,13 @@ Vec3f MemberReader::vector(const char* key) {
   return vector;
 }
 
+Vec3d MemberReader::exact_vector(const char* key) {
+  const auto fits = [](const Json& value) { return value.is_number() && std::abs(value.get<double>()) <= 1e30; };
+  Vec3d vector{};
+  if (!read_three(member(object_, key), fits, vector)) refuse(key, "is not three finite numbers");
+  return vector;
+}
+
 Vec3i MemberReader::whole_vector(const char* key) {
   Vec3i vector{};
   if (!read_three(member(object_, key), fits_whole, vector)) refuse(key, "is not three whole numbers");

@@ -27,6 +27,7 @@ class MemberReader {
   bool has(const char* key) const;
   float real(const char* key);  ///< must be finite as a float
   Vec3f vector(const char* key);
+  Vec3d exact_vector(const char* key);  ///< must be finite and within 1e30
   Vec3i whole_vector(const char* key);
   uint32_t whole(const char* key);  ///< 0 to 2^31 - 1, the range of all indices and counts in a pack
   std::string string(const char* key);

@@ -63,9 +63,9 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   use_extension(json, lamps_extension);
 }
 
-void add_pack_identity(Json& json, const PackId& id, float exposure) {
+void add_pack_identity(Json& json, const PackId& id, float exposure, const Vec3d& origin) {
   json["extensions"][streams_extension] =
-      to_json(PackIdentity{format_version, to_text(id), "lightwell " LIGHTWELL_VERSION, exposure});
+      to_json(PackIdentity{format_version, to_text(id), "lightwell " LIGHTWELL_VERSION, exposure, origin});
   use_extension(json, streams_extension);
 }
 

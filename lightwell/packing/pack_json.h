@@ -24,6 +24,6 @@ struct PackContent {
 void add_extensions(Document& document, const Scene& scene, const PackLight& light, const PackContent& content);
 
 /// Adds LIGHTWELL_streams: format version, id, generator and exposure (EV).
-void add_pack_identity(Json& json, const PackId& id, float exposure);
+void add_pack_identity(Json& json, const PackId& id, float exposure, const Vec3d& origin);
 
 }  // namespace lightwell

@@ -187,7 +187,7 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
 
   GlbParts parts = glb_parts(document);
   LW_TRY(writer, PackWriter::create(std::move(parts.bin), std::move(streams)));
-  add_pack_identity(document.json, writer.plan().id, light.exposure);
+  add_pack_identity(document.json, writer.plan().id, light.exposure, scene.origin);
   const std::string json = glb_parts(document).json;
   LW_CHECK(check_self_contained(json));
   auto file = writer.finish(json);

@@ -6,10 +6,12 @@
 namespace lightwell {
 
 Json to_json(const PackIdentity& identity) {
-  return {{"version", identity.version},
-          {"id", identity.id},
-          {"generator", identity.generator},
-          {"exposure", to_json(identity.exposure)}};
+  Json json = {{"version", identity.version},
+               {"id", identity.id},
+               {"generator", identity.generator},
+               {"exposure", to_json(identity.exposure)}};
+  if (identity.origin != Vec3d{}) json["origin"] = identity.origin.e;
+  return json;
 }
 
 Result<PackIdentity> read_identity(const Json& json) {
@@ -19,6 +21,7 @@ Result<PackIdentity> read_identity(const Json& json) {
   identity.id = reader.string("id");
   identity.generator = reader.string("generator");
   identity.exposure = reader.real("exposure");
+  if (reader.has("origin")) identity.origin = reader.exact_vector("origin");
   return reader.finish(std::move(identity));
 }
 

@@ -15,6 +15,7 @@ struct PackIdentity {
   std::string id;         ///< 32 hexadecimal digits
   std::string generator;  ///< the program that baked it
   float exposure = 0;     ///< EV chosen by the baker
+  Vec3d origin{};         ///< what the coordinates of grids and lamps are counted from: Scene::origin
 
   bool operator==(const PackIdentity&) const = default;
 };

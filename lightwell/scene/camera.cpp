@@ -9,7 +9,7 @@ Transform looking_at(const Vec3d& eye, const Vec3d& target) {
   return {right, cross(back, right), back, eye};
 }
 
-void add_camera(Document& document, const Camera& camera, float near) {
+void add_camera(Document& document, const Camera& camera, float near, const Vec3d& origin) {
   Json perspective = {{"yfov", camera.yfov}, {"znear", near}};
   if (camera.aspect > 0) perspective["aspectRatio"] = camera.aspect;
   Json json = {{"name", camera.name}, {"type", "perspective"}, {"perspective", std::move(perspective)}};
@@ -23,7 +23,7 @@ void add_camera(Document& document, const Camera& camera, float near) {
   add_column(camera.to_scene.x, 0);
   add_column(camera.to_scene.y, 0);
   add_column(camera.to_scene.z, 0);
-  add_column(camera.to_scene.t, 1);
+  add_column(camera.to_scene.t + origin, 1);
 
   DocumentBuilder builder(document);
   const int index = builder.add("cameras", std::move(json));

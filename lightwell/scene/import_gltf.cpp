@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/scene/import_gltf.h"
 
-#include <charconv>
+#include <algorithm>
+#include <cstdio>
 #include <map>
 #include <set>
 
 #include "lightwell/gltf/accessor.h"
+#include "lightwell/gltf/pose.h"
 #include "lightwell/scene/import_gltf_light.h"
 #include "lightwell/scene/import_gltf_material.h"
+#include "lightwell/scene/place.h"
 
 namespace lightwell {
 namespace {
@@ -46,8 +49,8 @@ struct Tally {
 struct MeshUse {
   int mesh = 0;
   int node = 0;
-  bool animated = false;  ///< it or a node above it moves
-  bool skinned = false;
+  int skin = -1;
+  std::vector<double> weights;  ///< of morph targets
   std::vector<Transform> to_scene;
 };
 
@@ -73,21 +76,36 @@ bool flattens(const Transform& m) {
   return !(std::abs(m.determinant()) > 1e-9 * sizes) || !(sizes < largest) || !(length(m.t) < largest);
 }
 
-/// The nodes that an animation moves directly.
-std::set<int> animated_nodes(const Json& json) {
+/// The nodes that are joints of a skin.
+std::set<int> joint_nodes(const Json& json) {
   std::set<int> nodes;
-  for (const Json& animation : member(json, "animations"))
-    for (const Json& channel : member(animation, "channels")) {
-      const Json& target = member(channel, "target");
-      if (text(target, "path") != "weights") nodes.insert(index_of(target, "node"));
-      const std::string pointer = text(extension(target, "KHR_animation_pointer"), "pointer");
-      constexpr std::string_view prefix = "/nodes/";
-      int node = -1;
-      if (pointer.starts_with(prefix))
-        std::from_chars(pointer.data() + prefix.size(), pointer.data() + pointer.size(), node);
-      nodes.insert(node);
-    }
+  for (const Json& skin : member(json, "skins"))
+    for (const Json& joint : member(skin, "joints")) nodes.insert(static_cast<int>(whole_number(joint)));
   return nodes;
+}
+
+/// The weights of a node's morph targets: its own, else its mesh's. Empty when all are zero.
+std::vector<double> morph_weights(const Json& node, const Json& mesh) {
+  std::vector<double> weights;
+  const Json& own = member(node, "weights");
+  for (const Json& weight : own.is_array() ? own : member(mesh, "weights"))
+    weights.push_back(weight.is_number() ? weight.get<double>() : 0);
+  const bool none = std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; });
+  return none ? std::vector<double>() : weights;
+}
+
+std::string kilometres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", metres / 1000);
+  return text;
+}
+
+/// Where an instance lies.
+Place place_of(const Instance& instance, const Primitive& primitive, const Box3f& box) {
+  const Transform& m = instance.to_scene;
+  const double stretch = std::max({length(m.x), length(m.y), length(m.z)});
+  return {m.point(box.center().cast<double>()), 0.5 * length(box.size().cast<double>()) * stretch,
+          static_cast<double>(primitive.mesh.faces.size())};
 }
 
 /// Builds a Scene from a document: walks the nodes first, then reads the meshes that they show.
@@ -98,16 +116,18 @@ class Importer {
     scene_.name = std::move(name);
   }
 
-  Result<Scene> import() {
+  Result<Scene> import(const std::optional<Vec3d>& origin) {
     const Json& json = scene_.document.json;
     scene_.materials = read_materials(json, report_);
     scene_.images = read_images(scene_.document, report_);
+    joint_nodes_ = joint_nodes(json);
     LW_CHECK(walk_nodes());
     LW_CHECK(place_meshes());
+    count_from(origin ? *origin : found_origin());
+    read_lamps_and_cameras();
     flat_.warn(report_, "its transform flattens what it holds; left out of the bake");
     hidden_.warn(report_, "is not visible (KHR_node_visibility); left out of the bake");
-    animated_.warn(report_, "is animated; left out of the bake");
-    deforming_.warn(report_, "is skinned or morphed; copied as it is and left out of the bake");
+    lost_joints_.warn(report_, "is a joint that the scene does not show; taken to be at the origin");
     undrawable_.warn(report_, "has no triangles; copied as it is and left out of the bake");
     return std::move(scene_);
   }
@@ -116,7 +136,7 @@ class Importer {
   struct Visit {
     int node;
     Transform parent;
-    bool animated;
+    bool hidden;
   };
 
   Result<void> walk_nodes() {
@@ -125,43 +145,42 @@ class Importer {
     const Json& shown = element(scenes, static_cast<size_t>(std::max(0, index_of(json, "scene"))));
     if (shown.is_null()) report_.warn("the document has no scene: nothing is shown");
     scene_.environment = read_environment(shown);
-    moving_ = animated_nodes(json);
     std::vector<Visit> open;  // a stack of our own: node trees may be deeper than the program's
-    const auto push = [&](const Json& nodes, const Transform& parent, bool animated) {
+    const auto push = [&](const Json& nodes, const Transform& parent, bool hidden) {
       for (size_t i = nodes.size(); i-- > 0;)
-        open.push_back({static_cast<int>(whole_number(nodes[i])), parent, animated});
+        open.push_back({static_cast<int>(whole_number(nodes[i])), parent, hidden});
     };
     push(member(shown, "nodes"), Transform(), false);
     while (!open.empty()) {
-      const Visit visit = open.back();
+      Visit visit = open.back();
       open.pop_back();
       const Json& node = element(member(json, "nodes"), static_cast<size_t>(visit.node));
-      if (!boolean(extension(node, "KHR_node_visibility"), "visible", true)) {
+      if (!visit.hidden && !boolean(extension(node, "KHR_node_visibility"), "visible", true)) {
         hidden_.add(element_name("nodes", static_cast<size_t>(visit.node)));
-        continue;
+        visit.hidden = true;  // what it holds may still be a joint
       }
       const Transform to_scene = visit.parent * local_transform(node);
-      const bool animated = visit.animated || moving_.contains(visit.node);
-      LW_CHECK(visit_node(node, visit.node, to_scene, animated));
-      push(member(node, "children"), to_scene, animated);
+      if (joint_nodes_.contains(visit.node)) joints_[visit.node] = to_scene;
+      if (!visit.hidden) LW_CHECK(visit_node(node, visit.node, to_scene));
+      push(member(node, "children"), to_scene, visit.hidden);
     }
     return {};
   }
 
-  Result<void> visit_node(const Json& node, int index, const Transform& to_scene, bool animated) {
-    const bool shows =
-        node.contains("mesh") || node.contains("camera") || extension(node, "KHR_lights_punctual").is_object();
-    if (!shows) return {};
-    if (flattens(to_scene)) {
+  Result<void> visit_node(const Json& node, int index, const Transform& to_scene) {
+    const bool lit_or_seen = node.contains("camera") || extension(node, "KHR_lights_punctual").is_object();
+    if (!node.contains("mesh") && !lit_or_seen) return {};
+    const int skin = index_of(node, "skin");
+    if (flattens(to_scene) && skin < 0) {
       flat_.add(element_name("nodes", static_cast<size_t>(index)));
       return {};
     }
-    const Json& json = scene_.document.json;
-    if (auto lamp = read_lamp(json, index, to_scene)) scene_.lamps.push_back(std::move(*lamp));
-    if (auto camera = read_camera(json, index, to_scene, report_)) scene_.cameras.push_back(std::move(*camera));
+    if (lit_or_seen) lamps_and_cameras_.emplace_back(index, to_scene);
     if (!node.contains("mesh")) return {};
-    MeshUse use{index_of(node, "mesh"), index, animated, node.contains("skin"), {to_scene}};
-    if (const Json& instancing = extension(node, "EXT_mesh_gpu_instancing"); instancing.is_object()) {
+    const int mesh = index_of(node, "mesh");
+    MeshUse use{
+        mesh, index, skin, morph_weights(node, scene_.document.json["meshes"][static_cast<size_t>(mesh)]), {to_scene}};
+    if (const Json& instancing = extension(node, "EXT_mesh_gpu_instancing"); instancing.is_object() && skin < 0) {
       LW_TRY(transforms, instance_transforms(instancing, to_scene, element_name("nodes", static_cast<size_t>(index))));
       use.to_scene = std::move(transforms);
     }
@@ -211,23 +230,35 @@ class Importer {
     return {};
   }
 
+  /// Uses that show a mesh in one pose.
+  using Group = std::vector<const MeshUse*>;
+
   Result<void> place_meshes() {
-    std::map<int, std::vector<const MeshUse*>> by_mesh;
+    std::map<int, Group> by_mesh;
     for (const MeshUse& use : uses_) by_mesh[use.mesh].push_back(&use);
-    for (const auto& [mesh, uses] : by_mesh) LW_CHECK(count_corners(mesh));
-    for (const auto& [mesh, uses] : by_mesh) LW_CHECK(place_mesh(mesh, uses));
+    for (const auto& [mesh, uses] : by_mesh) LW_CHECK(count_corners(mesh, groups_of(uses).size()));
+    for (const auto& [mesh, uses] : by_mesh) LW_CHECK(place_mesh(mesh, groups_of(uses)));
     return {};
   }
 
+  /// Every skinned use has a pose of its own.
+  static std::vector<Group> groups_of(const Group& uses) {
+    std::map<std::pair<int, std::vector<double>>, Group> groups;
+    for (const MeshUse* use : uses) groups[{use->skin < 0 ? -1 : use->node, use->weights}].push_back(use);
+    std::vector<Group> list;
+    for (auto& [pose, group] : groups) list.push_back(std::move(group));
+    return list;
+  }
+
   /// Fails before anything is read when there is more than the file can hold.
-  Result<void> count_corners(int mesh) {
+  Result<void> count_corners(int mesh, size_t poses) {
     const Json& json = scene_.document.json;
     for (const Json& primitive : member(json["meshes"][static_cast<size_t>(mesh)], "primitives")) {
       int accessor = index_of(primitive, "indices");
       if (accessor < 0) accessor = index_of(member(primitive, "attributes"), "POSITION");
       if (accessor < 0) continue;
       const Json& corners = element(member(json, "accessors"), static_cast<size_t>(accessor));
-      corners_ += static_cast<size_t>(std::max(0.0, number(corners, "count", 0)));
+      corners_ += static_cast<size_t>(std::max(0.0, number(corners, "count", 0))) * poses;
       if (corners_ > allowed_.corners)
         return fail(element_name("meshes", static_cast<size_t>(mesh)),
                     "the scene has more corners than the file can hold");
@@ -235,13 +266,8 @@ class Importer {
     return {};
   }
 
-  Result<void> place_mesh(int mesh, const std::vector<const MeshUse*>& uses) {
-    bool skinned = false, all_animated = true;
-    for (const MeshUse* use : uses) {
-      skinned |= use->skinned;
-      all_animated &= use->animated;
-      if (use->animated) animated_.add(element_name("nodes", static_cast<size_t>(use->node)));
-    }
+  Result<void> place_mesh(int mesh, const std::vector<Group>& groups) {
+    const bool skinned = std::any_of(groups.begin(), groups.end(), [](const Group& g) { return g[0]->skin >= 0; });
     const std::string mesh_name = element_name("meshes", static_cast<size_t>(mesh));
     const Json& primitives = scene_.document.json["meshes"][static_cast<size_t>(mesh)]["primitives"];
     for (size_t p = 0; p < primitives.size(); p++) {
@@ -250,78 +276,98 @@ class Importer {
         undrawable_.add(name);
         continue;
       }
-      LW_TRY(read, read_primitive(scene_.document, mesh, static_cast<int>(p), report_));
-      const bool deforms = skinned || !member(primitives[p], "targets").empty();
-      if (deforms) deforming_.add(name);
+      const bool deforming = skinned || !member(primitives[p], "targets").empty();
       const int material = index_of(primitives[p], "material");
-      scene_.primitives.push_back({std::move(read), material, mesh, static_cast<int>(p), deforms || all_animated});
-      faces_ += scene_.primitives.back().mesh.faces.size();
-      if (faces_ > max_faces)
-        return fail(ErrorKind::limit, name, "the scene has more than " + std::to_string(max_faces) + " triangles");
-      if (!deforms) LW_CHECK(place_instances(uses));
+      for (const Group& group : groups) {
+        Pose pose{group[0]->weights, {}};
+        std::vector<Transform> bent;
+        if (group[0]->skin >= 0) LW_CHECK(bend(*group[0], pose, bent));
+        LW_TRY(read, read_primitive(scene_.document, mesh, static_cast<int>(p), pose, report_));
+        scene_.primitives.push_back({std::move(read), material, mesh, static_cast<int>(p), deforming});
+        faces_ += scene_.primitives.back().mesh.faces.size();
+        if (faces_ > max_faces)
+          return fail(ErrorKind::limit, name, "the scene has more than " + std::to_string(max_faces) + " triangles");
+        for (const MeshUse* use : group) LW_CHECK(place_instances(use->node, bent.empty() ? use->to_scene : bent));
+      }
     }
     return {};
   }
 
-  /// Places the primitive that was read last where nothing moves it.
-  Result<void> place_instances(const std::vector<const MeshUse*>& uses) {
-    for (const MeshUse* use : uses) {
-      if (use->animated) continue;
-      if (scene_.instances.size() + use->to_scene.size() > max_instances)
-        return fail(ErrorKind::limit, "nodes", "place more than " + std::to_string(max_instances) + " instances");
-      for (const Transform& transform : use->to_scene)
-        scene_.instances.push_back({static_cast<int>(scene_.primitives.size()) - 1, transform, use->node});
+  /// The joints of a skinned use's pose, counted from where its first joint stands, and that place: the node's own does
+  /// not count (glTF 2.0, section 3.7.3.3).
+  Result<void> bend(const MeshUse& use, Pose& pose, std::vector<Transform>& place) {
+    LW_TRY(joints, read_inverse_binds(scene_.document, use.skin));
+    const Json& nodes = member(scene_.document.json["skins"][static_cast<size_t>(use.skin)], "joints");
+    if (joints.empty()) return {};
+    std::optional<Vec3d> base;
+    for (size_t i = 0; i < joints.size(); i++) {
+      const int node = static_cast<int>(whole_number(nodes[i]));
+      const auto found = joints_.find(node);
+      if (found == joints_.end()) lost_joints_.add(element_name("nodes", static_cast<size_t>(node)));
+      const Transform joint = found == joints_.end() ? Transform() : found->second;
+      if (!base) base = joint.t;
+      joints[i] = Transform::translation(-*base) * joint * joints[i];
     }
+    pose.joints = std::move(joints);
+    place = {Transform::translation(*base)};
     return {};
+  }
+
+  /// Places the primitive that was read last.
+  Result<void> place_instances(int node, const std::vector<Transform>& to_scene) {
+    if (scene_.instances.size() + to_scene.size() > max_instances)
+      return fail(ErrorKind::limit, "nodes", "place more than " + std::to_string(max_instances) + " instances");
+    for (const Transform& transform : to_scene)
+      scene_.instances.push_back({static_cast<int>(scene_.primitives.size()) - 1, transform, node});
+    return {};
+  }
+
+  Vec3d found_origin() {
+    std::vector<Box3f> boxes;
+    for (const Primitive& primitive : scene_.primitives) boxes.push_back(primitive.mesh.bounds());
+    std::vector<Place> places;
+    for (const Instance& instance : scene_.instances) {
+      const auto index = static_cast<size_t>(instance.primitive);
+      if (!boxes[index].empty()) places.push_back(place_of(instance, scene_.primitives[index], boxes[index]));
+    }
+    const Vec3d origin = origin_amid(std::move(places));
+    if (origin != Vec3d{})
+      report_.warn("the scene lies " + kilometres(length(origin)) +
+                   " km from its origin: it is baked near (0, 0, 0), "
+                   "and its pack keeps the place");
+    return origin;
+  }
+
+  void count_from(const Vec3d& origin) {
+    scene_.origin = origin;
+    for (Instance& instance : scene_.instances) instance.to_scene.t -= origin;
+    for (auto& [node, to_scene] : lamps_and_cameras_) to_scene.t -= origin;
+  }
+
+  void read_lamps_and_cameras() {
+    const Json& json = scene_.document.json;
+    for (const auto& [node, to_scene] : lamps_and_cameras_) {
+      if (auto lamp = read_lamp(json, node, to_scene)) scene_.lamps.push_back(std::move(*lamp));
+      if (auto camera = read_camera(json, node, to_scene, report_)) scene_.cameras.push_back(std::move(*camera));
+    }
   }
 
   Scene scene_;
   Report& report_;
-  std::set<int> moving_;
+  std::set<int> joint_nodes_;
+  std::map<int, Transform> joints_;  ///< to_scene of those that the scene has, by node
   std::vector<MeshUse> uses_;
+  std::vector<std::pair<int, Transform>> lamps_and_cameras_;
   Allowance allowed_;
   size_t faces_ = 0, corners_ = 0, placed_ = 0;
-  Tally flat_, hidden_, animated_, deforming_, undrawable_;
+  Tally flat_, hidden_, lost_joints_, undrawable_;
 };
-
-/// "a, b and 3 more".
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr size_t most = 5;
-  std::string list;
-  for (size_t i = 0; i < std::min(names.size(), most); i++) list += (i > 0 ? ", " : "") + names[i].substr(0, 80);
-  if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
-  return list;
-}
 
 }  // namespace
 
-Result<void> choose_scene(Document& document, const std::string& choice, Report& report) {
-  Json& json = document.json;
-  const Json& scenes = member(json, "scenes");
-  const auto name = [&](size_t i) {
-    const std::string given = text(scenes[i], "name");
-    return given.empty() ? std::to_string(i) : '"' + given + '"';
-  };
-  std::vector<std::string> names;
-  for (size_t i = 0; i < scenes.size(); i++) names.push_back(name(i));
-  size_t shown = static_cast<size_t>(std::max(0, index_of(json, "scene")));
-  if (!choice.empty()) {
-    shown = 0;
-    while (shown < scenes.size() && text(scenes[shown], "name") != choice && std::to_string(shown) != choice) shown++;
-    if (shown == scenes.size())
-      return fail("scene " + choice.substr(0, 80),
-                  names.empty() ? "there is none in the file" : "is not in the file, which has " + list_of(names));
-    json["scene"] = shown;
-  }
-  if (names.size() < 2 || shown >= names.size()) return {};
-  const std::string chosen = names[shown];
-  names.erase(names.begin() + static_cast<std::ptrdiff_t>(shown));
-  report.warn("scene " + chosen + " is shown, not " + list_of(names) + "; --scene chooses");
-  return {};
-}
-
-Result<Scene> scene_from_document(Document document, std::string name, Report& report) {
-  return Importer(std::move(document), std::move(name), report).import();
+Result<Scene> scene_from_document(Document document, std::string name, Report& report,
+                                  const std::optional<Vec3d>& origin) {
+  return Importer(std::move(document), std::move(name), report).import(origin);
 }
 
 }  // namespace lightwell

@@ -202,7 +202,7 @@ class MaterialTable {
 
 /// Adds a shape as a node with a primitive for each material.
 void add_shape(const Obj& obj, const tinyobj::shape_t& shape, const std::vector<Vec3f>& smooth,
-               MaterialTable& materials, SceneBuilder& scene) {
+               MaterialTable& materials, const Vec3d& origin, SceneBuilder& scene) {
   std::map<int, WeldedMesh> meshes;
   for_each_triangle(obj, shape,
                     [&](int material, const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
@@ -215,13 +215,14 @@ void add_shape(const Obj& obj, const tinyobj::shape_t& shape, const std::vector<
     complete_normals(welded.mesh);
     parts.push_back({welded.mesh, materials.material(material, welded.has_texcoords)});
   }
-  if (!parts.empty()) scene.object(shape.name, parts);
+  if (!parts.empty()) scene.object(shape.name, parts, origin);
 }
 
 }  // namespace
 
 Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report) {
   LW_TRY(text, checked_obj_text(file, report));
+  const Vec3d origin = move_to_origin(text);
   ObjMaterialReader materials(folder, report);
   LW_TRY(obj, read_obj(text, materials, report));
   const std::vector<Vec3f> smooth = normals_of_positions(obj);
@@ -230,7 +231,7 @@ Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, R
   size_t faces = 0;
   for (const tinyobj::shape_t& shape : obj.shapes) {
     faces += shape.mesh.num_face_vertices.size();
-    add_shape(obj, shape, smooth, table, scene);
+    add_shape(obj, shape, smooth, table, origin, scene);
   }
   if (faces == 0) return fail("", "has no faces");
   Document document = scene.release();

@@ -5,11 +5,14 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/scene/builtin.h"
+#include "lightwell/scene/import_draco.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/import_obj.h"
 #include "lightwell/scene/obj_text.h"
 #include "lightwell/scene/ply.h"
 #include "lightwell/scene/scene.h"
+#include "lightwell/scene/stl.h"
+#include "lightwell/scene/upright_images.h"
 #include "lightwell/texture/image_format.h"
 
 namespace lightwell {
@@ -21,20 +24,10 @@ std::string_view without_leading_space(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
 }
 
-/// A binary STL says how many facets of 50 bytes follow its header; an ascii one begins with "solid".
-bool is_stl(Bytes file) {
-  ByteReader reader(file);
-  reader.take(80);
-  const uint64_t facets = reader.u32();
-  const bool fits = reader.ok() && facets > 0 && reader.remaining() == facets * 50;
-  return fits || without_leading_space(text_of(file)).starts_with("solid");
-}
-
 /// The name of a file format that Lightwell recognises but does not read.
 std::optional<std::string> unsupported_format(Bytes file) {
   using namespace std::string_view_literals;
   constexpr std::pair<std::string_view, const char*> beginnings[] = {
-      {"DRACO"sv, "a bare Draco mesh; convert it to glTF, inside which Draco is read, to OBJ or to PLY"},
       {"\x76\x2f\x31\x01"sv, "an OpenEXR picture"},
       {"#?"sv, "a Radiance picture; --environment takes it"},
       {"Kaydara FBX Binary"sv, "an FBX file"},
@@ -51,7 +44,6 @@ std::optional<std::string> unsupported_format(Bytes file) {
     if (text.starts_with(beginning)) return name;
   }
   if (image_format(file)) return "a picture";
-  if (is_stl(file)) return "an STL file; convert it to PLY, OBJ or glTF";
   if (without_leading_space(text).starts_with('{') && text.find("\"asset\"") == text.npos)
     return "JSON that is no glTF";
   return std::nullopt;
@@ -63,30 +55,33 @@ std::string list_of_builtin_scenes() {
   return list;
 }
 
-Result<Document> document_of(Bytes file, const std::filesystem::path& folder, Report& report) {
-  if (file.empty()) return fail("", "is empty");
-  // A PLY or OBJ file may begin like an STL, but not the other way round.
-  if (is_ply(file)) return ply_document(file, report);
-  if (const auto format = unsupported_format(file))
-    return fail(ErrorKind::unsupported, "", "cannot be read: it is " + *format);
-  if (is_gltf(file)) return read_document(file, folder, report);
-  if (is_obj(file)) return obj_document(file, folder, report);
-  return fail(ErrorKind::unsupported, "", "is neither glTF, OBJ nor PLY");
-}
-
 /// "dragon" of "scans/dragon.ply.gz".
 std::string scene_name(std::filesystem::path path) {
   if (path.extension() == ".gz") path = path.stem();
   return path.stem().string();
 }
 
+Result<Document> document_of(Bytes file, const std::filesystem::path& path, Report& report) {
+  const std::filesystem::path folder = path.parent_path();
+  if (file.empty()) return fail("", "is empty");
+  if (is_ply(file)) return ply_document(file, folder, scene_name(path), report);
+  if (const auto format = unsupported_format(file))
+    return fail(ErrorKind::unsupported, "", "cannot be read: it is " + *format);
+  if (is_draco(file)) return draco_document(file);
+  if (is_stl(file)) return stl_document(file, report);
+  if (is_gltf(file)) return read_document(file, folder, report);
+  if (is_obj(file)) return obj_document(file, folder, report);
+  return fail(ErrorKind::unsupported, "", "is neither glTF, OBJ, PLY, STL nor Draco");
+}
+
 Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& options, Report& report) {
   constexpr bool inflate = true;
   LW_TRY(file, read_file(path, inflate));
-  LW_TRY(document, document_of(file, path.parent_path(), report));
+  LW_TRY(document, document_of(file, path, report));
   file = {};  // the document has its own copy of what it needs
   LW_CHECK(choose_scene(document, options.scene, report));
   reorient(document, options.up, options.unit);
+  make_images_upright(document);
   return scene_from_document(std::move(document), scene_name(path), report);
 }
 

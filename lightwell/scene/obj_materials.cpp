@@ -11,23 +11,6 @@
 namespace lightwell {
 namespace {
 
-/// A relative path as a URI: everything but letters, digits and a few signs becomes %XX.
-std::string as_uri(const std::string& path) {
-  constexpr char digits[] = "0123456789ABCDEF";
-  std::string uri;
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) || std::string_view("-._~/").find(c) != std::string_view::npos) {
-      uri += c;
-    } else if (c == '\\') {
-      uri += '/';
-    } else {
-      uri += {'%', digits[byte >> 4], digits[byte & 15]};
-    }
-  }
-  return uri;
-}
-
 /// A number of a material, kept within [0, most].
 float clamped(float value, float most) { return std::isfinite(value) ? std::clamp(value, 0.0f, most) : 0; }
 

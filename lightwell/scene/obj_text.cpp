@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "lightwell/scene/place.h"
+
 namespace lightwell {
 namespace {
 
@@ -67,6 +69,26 @@ bool begins_with_numbers(std::string_view words, int count) {
     if (!is_number(take_word(words))) return false;
   }
   return true;
+}
+
+double number_of(std::string_view word) {
+  double value = 0;
+  if (word.starts_with('+')) word.remove_prefix(1);
+  std::from_chars(word.data(), word.data() + word.size(), value);
+  return value;
+}
+
+/// The position of a checked line "v x y z"; what follows it is left.
+Vec3d take_position(std::string_view& line) {
+  take_word(line);
+  Vec3d position;
+  for (double& x : position.e) x = number_of(take_word(line));
+  return position;
+}
+
+std::string text_of(double number) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
 }
 
 bool is_index(std::string_view word) {
@@ -189,6 +211,33 @@ Result<std::string> checked_obj_text(Bytes file, Report& report) {
     checked.append(lines - before, '\n');
   }
   return checked;
+}
+
+Vec3d move_to_origin(std::string& checked) {
+  std::vector<Vec3d> positions;
+  const auto for_each_line = [&](const auto& visit) {
+    for (std::string_view text = checked; !text.empty();) {
+      const std::string_view line = text.substr(0, text.find('\n'));
+      text.remove_prefix(std::min(line.size() + 1, text.size()));
+      visit(line);
+    }
+  };
+  for_each_line([&](std::string_view line) {
+    if (line.starts_with("v ")) positions.push_back(take_position(line));
+  });
+  const Vec3d origin = origin_amid(positions);
+  if (origin == Vec3d{}) return origin;
+  std::string moved;
+  moved.reserve(checked.size());
+  for_each_line([&](std::string_view line) {
+    if (line.starts_with("v ")) {
+      moved += "v";
+      for (const double x : (take_position(line) - origin).e) moved += ' ' + text_of(x);
+    }
+    moved.append(line) += '\n';
+  });
+  checked = std::move(moved);
+  return origin;
 }
 
 std::string checked_mtl_text(Bytes file) {

@@ -5,6 +5,7 @@
 
 #include "lightwell/base/bytes.h"
 #include "lightwell/base/result.h"
+#include "lightwell/base/vector.h"
 
 namespace lightwell {
 
@@ -17,6 +18,10 @@ bool is_obj(Bytes bytes);
 /// Lightwell does not use are left out (points, lines and curves with a warning), continued lines are joined, and
 /// spaces in names become underscores, and slashes behind which no index stands ("1//") go. Lines keep their numbers.
 Result<std::string> checked_obj_text(Bytes file, Report& report);
+
+/// Counts the positions of a checked text from an origin amid them (scene/place.h), before the library makes them
+/// floats. Returns that origin; the text stays as it is where it is zero.
+Vec3d move_to_origin(std::string& checked);
 
 /// The text of an MTL file with spaces in the materials' names replaced in the same way, keywords in the case in which
 /// the library knows them, and backslashes in the names of textures turned.

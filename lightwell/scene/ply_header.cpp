@@ -12,6 +12,7 @@ namespace {
 // More than any program writes, and little enough to hold.
 constexpr size_t longest_line = 4096;
 constexpr size_t most_properties = 4096;
+constexpr size_t most_textures = 4096;
 
 /// Takes the header's lines off the front of a text. All end as the first one does.
 class Lines {
@@ -48,6 +49,22 @@ std::vector<std::string_view> words_of(std::string_view line) {
     words.push_back(line.substr(0, length));
     line.remove_prefix(length);
   }
+}
+
+/// The rest of a line "comment TextureFile NAME"; names may hold spaces.
+std::optional<std::string> texture_named(std::string_view line) {
+  for (const std::string_view word : {"comment", "texturefile"}) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+    if (line.size() <= word.size() ||
+        !std::equal(word.begin(), word.end(), line.begin(), [&](char b, char a) { return same(a, b); }))
+      return std::nullopt;
+    line.remove_prefix(word.size());
+    if (!line.starts_with(' ') && !line.starts_with('\t')) return std::nullopt;
+  }
+  const size_t first = line.find_first_not_of(" \t"), last = line.find_last_not_of(" \t");
+  if (first == line.npos) return std::nullopt;
+  return std::string(line.substr(first, last + 1 - first));
 }
 
 std::optional<PlyType> type_named(std::string_view name) {
@@ -148,6 +165,8 @@ Result<PlyHeader> read_ply_header(Bytes file) {
   size_t properties = 0;
   while (const auto line = lines.next()) {
     const auto words = words_of(*line);
+    if (auto texture = texture_named(*line)) header.textures.push_back(std::move(*texture));
+    if (header.textures.size() > most_textures) return fail(ErrorKind::limit, "header", "names too many textures");
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") {
       header.size = lines.position();

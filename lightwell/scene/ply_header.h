@@ -34,7 +34,8 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  size_t size = 0;  ///< length of the header in bytes: the data begin there
+  std::vector<std::string> textures;  ///< of "comment TextureFile NAME", as MeshLab and others write
+  size_t size = 0;                    ///< length of the header in bytes: the data begin there
 };
 
 /// Reads a header whose lines end in LF, CRLF or CR. Fails when a line is not understood, or when the file is too short

@@ -58,7 +58,7 @@ struct Primitive {
   int material = -1;     ///< index into Scene::materials; -1: glTF's default material
   int source_mesh = -1;  ///< where it stands in Scene::document
   int source_primitive = -1;
-  bool deforming = false;  ///< skinned, morphed or animated: copied unrefined, and left out of the bake
+  bool deforming = false;  ///< skinned or morphed: `mesh` is in its pose; a pack keeps the file's own, unrefined
 };
 
 /// A primitive placed in the scene.
@@ -102,6 +102,7 @@ struct Environment {
 /// built-in scenes are turned into one), so that names, extras and extensions survive into the pack.
 struct Scene {
   std::string name;
+  Vec3d origin{};  ///< what all coordinates but the document's are counted from (scene/place.h), in its coordinates
   Document document;
   std::vector<Primitive> primitives;
   std::vector<Instance> instances;

@@ -12,6 +12,22 @@ Json to_json(const Vec3f& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
+std::string as_uri(const std::string& path) {
+  constexpr char digits[] = "0123456789ABCDEF";
+  std::string uri;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || std::string_view("-._~/").find(c) != std::string_view::npos) {
+      uri += c;
+    } else if (c == '\\') {
+      uri += '/';
+    } else {
+      uri += {'%', digits[byte >> 4], digits[byte & 15]};
+    }
+  }
+  return uri;
+}
+
 Json lambertian_json(const Lambertian& material) {
   const Vec3f& color = material.color;
   Json json = {
@@ -37,14 +53,17 @@ int SceneBuilder::texture(const std::string& uri) {
   return known->second;
 }
 
-void SceneBuilder::object(const std::string& name, const std::vector<Part>& parts) {
+void SceneBuilder::object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin) {
   Json primitives = Json::array();
   for (const Part& part : parts) {
     Json primitive = builder_.primitive(part.mesh);
     primitive["material"] = part.material;
     primitives.push_back(std::move(primitive));
   }
-  node({{"name", name}, {"mesh", builder_.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}})}});
+  Json shown = {{"name", name},
+                {"mesh", builder_.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}})}};
+  if (origin != Vec3d{}) shown["translation"] = origin.e;
+  node(std::move(shown));
 }
 
 void SceneBuilder::camera(const std::string& name, const Vec3d& eye, const Vec3d& target, double yfov, int width,

@@ -20,6 +20,9 @@ struct Lambertian {
 
 Json lambertian_json(const Lambertian& material);
 
+/// A relative path as a URI: everything but letters, digits and a few signs becomes %XX, a backslash a slash.
+std::string as_uri(const std::string& path);
+
 /// Builds a glTF document from meshes and materials, one node an object.
 class SceneBuilder {
  public:
@@ -37,8 +40,8 @@ class SceneBuilder {
   int material(Json material);
   /// An image by its URI, relative to the document's folder, as a texture that repeats; one for all uses of the URI.
   int texture(const std::string& uri);
-  /// A node with a mesh of these parts.
-  void object(const std::string& name, const std::vector<Part>& parts);
+  /// A node with a mesh of these parts, whose positions are counted from `origin`.
+  void object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin = {});
   /// A perspective camera at `eye` that looks towards `target`, y up; yfov in radians, the picture's size in pixels.
   void camera(const std::string& name, const Vec3d& eye, const Vec3d& target, double yfov, int width, int height);
   Document release() { return std::move(document_); }

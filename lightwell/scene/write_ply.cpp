@@ -14,9 +14,11 @@ void append(ByteWriter& writer, const Vec3f& v) {
 
 }  // namespace
 
-std::vector<uint8_t> write_ply(const Mesh& mesh) {
+std::vector<uint8_t> write_ply(const Mesh& mesh, const Vec3d& origin) {
+  const bool far = origin != Vec3d{};
+  const std::string type = far ? "double" : "float";
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size());
-  header += "\nproperty float x\nproperty float y\nproperty float z";
+  for (const char* axis : {"x", "y", "z"}) header += "\nproperty " + type + " " + axis;
   if (!mesh.normals.empty()) header += "\nproperty float nx\nproperty float ny\nproperty float nz";
   header += "\nelement face " + std::to_string(mesh.faces.size());
   header += "\nproperty list uchar uint vertex_indices\nend_header\n";
@@ -24,7 +26,10 @@ std::vector<uint8_t> write_ply(const Mesh& mesh) {
   ByteWriter writer;
   writer.append(as_bytes(header));
   for (size_t i = 0; i < mesh.positions.size(); i++) {
-    append(writer, mesh.positions[i]);
+    if (far)
+      for (const double x : (mesh.positions[i].cast<double>() + origin).e) writer.f64(x);
+    else
+      append(writer, mesh.positions[i]);
     if (!mesh.normals.empty()) append(writer, mesh.normals[i]);
   }
   for (const Face& face : mesh.faces) {

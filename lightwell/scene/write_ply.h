@@ -8,7 +8,8 @@
 
 namespace lightwell {
 
-/// A mesh as a little-endian binary PLY file: positions, normals if there are any, and triangles.
-std::vector<uint8_t> write_ply(const Mesh& mesh);
+/// A mesh as a little-endian binary PLY file: positions, normals if there are any, and triangles. Positions are counted
+/// from `origin`; unless it is zero, the file has them as doubles.
+std::vector<uint8_t> write_ply(const Mesh& mesh, const Vec3d& origin = {});
 
 }  // namespace lightwell

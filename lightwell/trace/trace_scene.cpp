@@ -129,7 +129,7 @@ Result<void> TraceScene::check_extent() const {
 void TraceScene::place(uint32_t index) {
   const Instance& instance = scene_.instances[index];
   const Primitive& primitive = scene_.primitives[static_cast<size_t>(instance.primitive)];
-  if (primitive.deforming || primitive.mesh.faces.empty()) return;
+  if (primitive.mesh.faces.empty()) return;
   Placed& placed = placed_[index];
   placed.mesh = &primitive.mesh;
   placed.material = &scene_.material_of(primitive);

@@ -41,7 +41,7 @@ struct Hit {
   Vec3f facing_normal() const { return front ? normal : -normal; }
 };
 
-/// A scene made ready for tracing rays with Embree: everything but deforming primitives. Threads may share it.
+/// A scene made ready for tracing rays with Embree. Threads may share it.
 class TraceScene {
  public:
   /// Builds Embree's tree with `threads` threads, 0: all processors. The scene must outlive the result unchanged. Fails
@@ -72,7 +72,7 @@ class TraceScene {
   /// The material of an instance that is traced.
   const Material& material(uint32_t instance) const { return *placed_[instance].material; }
   const Mesh& mesh(uint32_t instance) const { return *placed_[instance].mesh; }
-  /// False for deforming primitives, which are left out.
+  /// False for primitives without faces.
   bool traced(uint32_t instance) const { return placed_[instance].mesh != nullptr; }
 
   /// True when the material is the same everywhere on the instance.

@@ -46,12 +46,6 @@ Scene import(Document document) {
   return scene;
 }
 
-std::vector<std::string> warnings_of(Document document) {
-  Report report;
-  import(std::move(document), report);
-  return report.warnings;
-}
-
 #define EXPECT_NEAR_VEC(a, b, tolerance) EXPECT_LE(length((a) - (b)), tolerance)
 
 // The product of the textbook matrices, by hand: scaled by 2, turned a quarter about z (x to y), moved by (1, 2, 3);
@@ -152,31 +146,103 @@ TEST(ImportGltf, RefusesMoreThanTheFileCanHold) {
   EXPECT_EQ(drawn.error().message(), "meshes[0]: the scene has more corners than the file can hold");
 }
 
-TEST(ImportGltf, WhatMovesOrDeformsIsLeftOutOfTheBake) {
-  Document document = scene_document(R"([{"children": [1]}, {"mesh": 0}, {"mesh": 0}])", {0, 2});
-  DocumentBuilder builder(document);
-  builder.add("animations", Json::parse(R"({"channels": [{"target": {"node": 0, "path": "rotation"}}]})"));
-  Report report;
-  Scene scene = import(document, report);
-  ASSERT_EQ(scene.instances.size(), 1u);  // the mesh is at rest elsewhere
-  EXPECT_EQ(scene.instances[0].node, 2);
+TEST(ImportGltf, AnimatedNodesStandWhereTheFileHasThem) {
+  Document document = scene_document(R"([{"children": [1], "translation": [1, 0, 0]}, {"mesh": 0}])", {0});
+  DocumentBuilder(document).add("animations",
+                                Json::parse(R"({"channels": [{"target": {"node": 0, "path": "rotation"}}]})"));
+  const Scene scene = import(document);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.instances[0].to_scene.t, (Vec3d{{1, 0, 0}}));
   EXPECT_FALSE(scene.primitives[0].deforming);
-  EXPECT_EQ(report.warnings, std::vector<std::string>{"nodes[1]: is animated; left out of the bake"});
+}
 
-  document.json["scenes"][0]["nodes"] = {0};
-  scene = import(document, report);
-  EXPECT_TRUE(scene.instances.empty());
-  EXPECT_TRUE(scene.primitives.at(0).deforming);
+TEST(ImportGltf, MorphTargetsHaveTheirWeights) {
+  Document document = scene_document(
+      R"([{"mesh": 0}, {"mesh": 0, "weights": [0, 2]}, {"mesh": 0, "translation": [0, 0, 9]}])", {0, 1, 2});
+  DocumentBuilder builder(document);
+  Json& mesh = document.json["meshes"][0];
+  mesh["weights"] = {1, 0};
+  mesh["primitives"][0]["targets"] = Json::array();
+  for (const float by : {1.0f, 10.0f})
+    mesh["primitives"][0]["targets"].push_back(
+        {{"POSITION", builder.accessor(std::vector<Vec3f>(4, {{0, 0, by}}), false)}});
+  const Scene scene = import(document);
+  ASSERT_EQ(scene.primitives.size(), 2u);  // one for each pose
+  ASSERT_EQ(scene.instances.size(), 3u);
+  for (const Instance& instance : scene.instances) {
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
+    EXPECT_TRUE(primitive.deforming);
+    EXPECT_EQ(primitive.mesh.positions[2], (Vec3f{{1, 1, instance.node == 1 ? 20.0f : 1.0f}}));
+  }
 
-  document = scene_document(R"([{"mesh": 0}, {"mesh": 0, "skin": 0}])", {0, 1});
-  EXPECT_EQ(warnings_of(document),
-            std::vector<std::string>{
-                "meshes[0].primitives[0]: is skinned or morphed; copied as it is and left out of the bake"});
-  document.json["nodes"][1].erase("skin");
-  document.json["meshes"][0]["primitives"][0]["targets"] = Json::parse(R"([{"POSITION": 0}])");
-  scene = import(document, report);
-  EXPECT_TRUE(scene.primitives.at(0).deforming);
-  EXPECT_TRUE(scene.instances.empty());
+  mesh["primitives"][0]["targets"][0]["POSITION"] = builder.accessor(std::vector<Vec3f>(3), false);
+  Report report;
+  const auto wrong = scene_from_document(document, "", report);
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().message().find("has another count than POSITION"), std::string::npos);
+}
+
+// Two joints, each far away and turned: the lower corners follow the first, the upper ones the second, halves in
+// between.
+TEST(ImportGltf, SkinsAreInTheirPose) {
+  Document document = scene_document(R"([
+      {"mesh": 0, "skin": 0, "translation": [77, 0, 0], "scale": [0, 1, 1]},
+      {"translation": [0, 0, 5], "children": [2]},
+      {"translation": [10, 0, 0], "rotation": [0, 0, 0.70710678118654752, 0.70710678118654752]}])",
+                                     {0, 1});
+  DocumentBuilder builder(document);
+  const auto vec4 = [&](int component, Bytes bytes) {
+    return builder.add(
+        "accessors",
+        {{"bufferView", builder.buffer_view(bytes)}, {"componentType", component}, {"count", 4}, {"type", "VEC4"}});
+  };
+  const std::array<uint8_t, 16> joints = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+  const std::array<float, 16> weights = {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 1, 0, 0, 0, 3, 0, 0};  // the last not scaled
+  Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = vec4(5121, joints);
+  attributes["WEIGHTS_0"] = vec4(5126, as_bytes(std::string_view(reinterpret_cast<const char*>(weights.data()), 64)));
+  document.json["skins"] = Json::parse(R"([{"joints": [1, 2]}])");
+  const Scene scene = import(document);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  const Mesh& mesh = scene.primitives[0].mesh;
+  const auto place = [&](size_t i) { return scene.instances[0].to_scene.point(mesh.positions[i]); };
+  EXPECT_TRUE(scene.primitives[0].deforming);
+  // By hand: the second joint takes (x, y, 0) to (10 - y, x, 5). The node's own transform does not count.
+  EXPECT_NEAR_VEC(place(0), (Vec3f{{0, 0, 5}}), 1e-6f);
+  EXPECT_NEAR_VEC(place(1), (Vec3f{{5.5f, 0.5f, 5}}), 1e-6f);
+  EXPECT_NEAR_VEC(place(2), (Vec3f{{9, 1, 5}}), 1e-6f);
+  EXPECT_NEAR_VEC(place(3), (Vec3f{{9, 0, 5}}), 1e-6f);
+
+  document.json["skins"][0]["joints"] = {1};
+  Report report;
+  const auto wrong = scene_from_document(document, "", report);
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(wrong.error().message().find("a joint that its skin does not have"), std::string::npos);
+}
+
+// 13,000 km away floats are a metre apart; what is there keeps its shape, and lamps and cameras their places in it.
+TEST(ImportGltf, ScenesFarAwayAreCountedFromAnOriginNearby) {
+  Document document = scene_document(R"([
+      {"translation": [13000000.3, 0, 5], "children": [1, 2, 3]}, {"mesh": 0, "scale": [0.1, 0.1, 0.1]},
+      {"translation": [0, 0.25, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+      {"camera": 0, "translation": [0.25, 0, 0]}])",
+                                     {0});
+  document.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "point"}])");
+  document.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])");
+  Report report;
+  const Scene scene = import(document, report);
+  EXPECT_EQ(report.warnings.size(), 1u);
+  const Vec3d root{{13000000.3, 0, 5}};
+  EXPECT_LE(length(scene.origin - root), 0.2);
+  const auto in_file = [&](const Vec3f& p) { return p.cast<double>() + scene.origin - root; };
+  EXPECT_NEAR_VEC(in_file(scene.bounds().lo), (Vec3d{}), 1e-7);  // a float of a number below 0.2
+  EXPECT_NEAR_VEC(in_file(scene.bounds().hi), (Vec3d{{0.1, 0.1, 0}}), 1e-7);
+  EXPECT_NEAR_VEC(in_file(scene.lamps.at(0).position), (Vec3d{{0, 0.25, 0}}), 1e-7);
+  EXPECT_NEAR_VEC(in_file(scene.cameras.at(0).to_scene.t.cast<float>()), (Vec3d{{0.25, 0, 0}}), 1e-7);
+
+  const auto again = scene_from_document(document, "", report, Vec3d{{13000000, 0, 0}});
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->origin, (Vec3d{{13000000, 0, 0}}));
 }
 
 TEST(ImportGltf, LinesAreCopiedWithAWarning) {

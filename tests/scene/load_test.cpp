@@ -55,6 +55,20 @@ TEST(LoadScene, TellsFormatsByContent) {
   }
 }
 
+// An OBJ file whose numbers have more digits than floats.
+TEST(LoadScene, KeepsTheShapeOfAnObjFarAway) {
+  const TemporaryFolder folder;
+  Report report;
+  const auto scene = load_scene(folder.write("far.obj",
+                                             "v 500000.125 4649776.5 100\nv 500000.250 4649776.5 100 1 0 0\n"
+                                             "v +500000.125 4649776.75 100\nf 1 2 3\n"),
+                                {}, report);
+  ASSERT_TRUE(scene) << scene.error().message();
+  const Box3f bounds = scene->bounds();
+  EXPECT_EQ(bounds.size(), (Vec3f{{0.125f, 0.25f, 0}}));
+  EXPECT_EQ(bounds.lo.cast<double>() + scene->origin, (Vec3d{{500000.125, 4649776.5, 100}}));
+}
+
 TEST(LoadScene, TurnsAndScales) {
   const TemporaryFolder folder;
   Report report;
@@ -70,9 +84,7 @@ TEST(LoadScene, TurnsAndScales) {
 TEST(LoadScene, RefusesByName) {
   const TemporaryFolder folder;
   const std::map<std::string, std::string> refused = {
-      {"solid cube\nfacet normal 0 0 1\n", "an STL file; convert it to PLY, OBJ or glTF"},
-      {std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "STL"},
-      {"DRACO\2\2", "convert it to glTF"},
+      {"DRACO\2\2", "damaged Draco data"},
       {"\x76\x2f\x31\x01", "OpenEXR"},
       {"#?RADIANCE\n", "Radiance"},
       {"{\"primitives\": []}", "JSON"},
