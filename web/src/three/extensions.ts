@@ -9,6 +9,8 @@ export interface StreamsExtension {
   id: string;
   /** In stops: pictures are multiplied by 2 to this power. */
   exposure?: number;
+  /** What grids and lamps are counted from, in the glTF's coordinates: of scenes that lie far from theirs. */
+  origin?: Triple;
 }
 
 /**

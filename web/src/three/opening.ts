@@ -44,6 +44,9 @@ export async function readOpening(glb: ArrayBuffer, manager: LoadingManager): Pr
     return { name: hasLamps ? 'KHR_lights_punctual' : 'LIGHTWELL_lamps' };
   });
   const gltf = await loader.parseAsync(glb, '');
+  gltf.scene.traverse((object) => {
+    if (object.userData.gltfExtensions?.KHR_node_visibility?.visible === false) object.visible = false;
+  });
   return {
     gltf,
     extensions: extensionsOf(gltf.parser),

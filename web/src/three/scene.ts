@@ -109,6 +109,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#uploads = FrameScheduler.of(renderer).add(({ bytes }) => this.#refine(bytes));
     renderer.domElement.addEventListener('webglcontextrestored', this.#restart);
     this.add(opening.gltf.scene);
+    const { origin } = opening.extensions.LIGHTWELL_streams ?? {};
+    if (origin) opening.gltf.scene.position.set(...origin).negate();
     prepareMeshes(opening.gltf.scene, options.ambientOcclusion ?? false);
     this.bounds = finalBounds(opening);
     this.focus = focusOf(opening, this.bounds);
