@@ -40,6 +40,9 @@ constexpr std::string_view obj_text =
     "b\n"
     "f 1/1/1 2/2/1 3/1/1 4/2/1\nf -1//1 -2//1 -3//1\nl 1 2\n";
 
+constexpr std::string_view stl_text =
+    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+
 /// Eight pixels in the newer run-length coding: the rows of each channel one after another.
 constexpr std::string_view radiance_text =
     "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 1 +X 8\n\x02\x02\x00\x08\x88\x10\x88\x20\x88\x30\x88\x80"sv;
@@ -103,6 +106,7 @@ void plant_scenes(Seeds& seeds) {
   seeds.plant("scene", as_bytes(ply_text));
   seeds.plant("scene", as_bytes(textured_ply_text));
   seeds.plant("scene", as_bytes(obj_text));
+  seeds.plant("scene", as_bytes(stl_text));
 }
 
 /// Scripts for import_fuzz.cpp: one that changes nothing, and random ones.

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "lightwell/texture/image_file.h"
+#include "lightwell/texture/orientation.h"
 #include "lightwell/texture/radiance_hdr.h"
 
 using namespace lightwell;
@@ -23,6 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     require(image->pixels.size() == area(image->width, image->height) * static_cast<size_t>(image->channels));
     if (area(image->width, image->height) < size_t(1) << 20) require(!write_preview(*image, 16, true).empty());
   }
+  std::vector<uint8_t> upright(bytes.begin(), bytes.end());
+  make_upright(upright);
   if (const auto picture = read_radiance_hdr(bytes))
     require(picture->pixels.size() == area(picture->width, picture->height) * 3);
   return 0;

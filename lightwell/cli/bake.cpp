@@ -7,6 +7,7 @@
 #include "lightwell/bake/turned.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/cli/number_text.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/packing/pack_scene.h"
 #include "lightwell/render/exposure.h"
@@ -55,11 +56,21 @@ bool is_dark(const LightField& field) {
   return true;
 }
 
+// Few scenes are kilometres long, many files are in millimetres or centimetres and do not say so.
+void advise_on_unit(const Box3f& focus, Report& report) {
+  constexpr float longest = 1000;
+  const float length = max_component(focus.size());
+  if (length > longest)
+    report.warn("what the scene is about is " + grouped(static_cast<uint64_t>(length)) +
+                " m long: if the file's unit is the millimetre, --unit 0.001 says so");
+}
+
 Result<void> import_scene(const Options& options, Progress& progress, Bake& bake) {
   LW_TRY(opened, open_scene(options.scene, bake.report));
   bake.scene = std::move(opened.scene);
   LW_TRY(world, world_facing_light(bake.scene, options.scene.threads, progress, bake.report));
   bake.world = std::move(world);
+  if (!opened.pack && options.scene.import.unit == 1) advise_on_unit(bake.world->surfaces().focus(), bake.report);
   return {};
 }
 
@@ -212,7 +223,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   CLI::App* command =
       program.add_subcommand("bake", "Imports a scene, traces its light, orders its meshes, writes a pack");
   add_output(*command, options->output, {".glb"}, "The pack to write, FILE.glb; - is stdout")->required();
-  add_scene_options(*command, options->scene, "A glTF, OBJ or PLY file, a pack, or a built-in scene");
+  add_scene_options(*command, options->scene, "A glTF, OBJ, PLY, STL or Draco file, a pack, or a built-in scene");
   add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
              "How far a vertex may move at most, in metres (default: a 32,000th of its mesh's longest side)");
   add_choice<LightNodeOrder>(

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "lightwell/gltf/resource.h"
+#include "lightwell/scene/cutout.h"
 #include "lightwell/scene/obj_text.h"
 
 namespace lightwell {
@@ -30,7 +31,6 @@ std::vector<std::string> unread(const tinyobj::material_t& material) {
   add(material.roughness > 0, "Pr");
   add(!material.bump_texname.empty() || !material.displacement_texname.empty(), "bump");
   add(!material.normal_texname.empty(), "norm");
-  add(!material.alpha_texname.empty(), "map_d");
   add(!material.specular_texname.empty(), "map_Ks");
   add(!material.metallic_texname.empty(), "map_Pm");
   add(!material.roughness_texname.empty(), "map_Pr");
@@ -61,8 +61,28 @@ bool ObjMaterialReader::read(const std::string& name, std::vector<tinyobj::mater
   return true;
 }
 
+std::string ObjMaterialReader::texture_uri(const std::string& name, size_t material) const {
+  return as_uri((folder_of_material_[material] / name).lexically_normal().generic_string());
+}
+
 Json ObjMaterialReader::texture(SceneBuilder& scene, const std::string& name, size_t material) const {
-  return {{"index", scene.texture(as_uri((folder_of_material_[material] / name).generic_string()))}};
+  return {{"index", scene.texture(texture_uri(name, material))}};
+}
+
+/// glTF has a colour's opacity in the alpha of its image: the map of another image becomes that.
+void ObjMaterialReader::add_opacity(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,
+                                    Json& json) const {
+  json["alphaMode"] = "MASK";
+  if (material.alpha_texname == material.diffuse_texname) return;
+  const auto mask = read_uri(texture_uri(material.alpha_texname, index), folder_);
+  auto color = material.diffuse_texname.empty() ? Result<std::vector<uint8_t>>()
+                                                : read_uri(texture_uri(material.diffuse_texname, index), folder_);
+  const Result<std::vector<uint8_t>> cut =
+      mask && color ? cut_out(*color, *mask) : fail(mask ? color.error() : mask.error());
+  if (cut)
+    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", scene.texture(*cut)}};
+  else
+    report_.warn("material " + material.name.substr(0, 80) + ": map_d is left out: " + cut.error().message());
 }
 
 int ObjMaterialReader::add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,
@@ -80,11 +100,14 @@ int ObjMaterialReader::add_to(SceneBuilder& scene, const tinyobj::material_t& ma
     // A map without a factor is meant to be seen.
     if (max_component(clamped(material.emission, 1e9f)) == 0) json["emissiveFactor"] = {1, 1, 1};
   }
+  if (!has_texcoords && !(material.diffuse_texname.empty() && material.alpha_texname.empty()))
+    report_.warn("material " + material.name.substr(0, 80) + ": its textures are left out where faces have no vt");
   const float opacity = clamped(material.dissolve, 1);
   if (opacity < 1) {
     json["pbrMetallicRoughness"]["baseColorFactor"][3] = opacity;
     json["alphaMode"] = "BLEND";
   }
+  if (has_texcoords && !material.alpha_texname.empty()) add_opacity(scene, material, index, json);
   return scene.material(std::move(json));
 }
 

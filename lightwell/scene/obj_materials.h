@@ -26,7 +26,9 @@ class ObjMaterialReader : public tinyobj::MaterialReader {
 
  private:
   bool read(const std::string& name, std::vector<tinyobj::material_t>* materials, std::map<std::string, int>* indices);
+  std::string texture_uri(const std::string& name, size_t material) const;
   Json texture(SceneBuilder& scene, const std::string& name, size_t material) const;
+  void add_opacity(SceneBuilder& scene, const tinyobj::material_t& material, size_t index, Json& json) const;
 
   std::filesystem::path folder_;
   Report& report_;

@@ -53,6 +53,12 @@ int SceneBuilder::texture(const std::string& uri) {
   return known->second;
 }
 
+int SceneBuilder::texture(const std::vector<uint8_t>& png) {
+  const int view = builder_.buffer_view(png);
+  return builder_.add("textures",
+                      {{"source", builder_.add("images", {{"bufferView", view}, {"mimeType", "image/png"}})}});
+}
+
 void SceneBuilder::object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin) {
   Json primitives = Json::array();
   for (const Part& part : parts) {

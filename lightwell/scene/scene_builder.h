@@ -40,6 +40,8 @@ class SceneBuilder {
   int material(Json material);
   /// An image by its URI, relative to the document's folder, as a texture that repeats; one for all uses of the URI.
   int texture(const std::string& uri);
+  /// A PNG file as a texture that repeats.
+  int texture(const std::vector<uint8_t>& png);
   /// A node with a mesh of these parts, whose positions are counted from `origin`.
   void object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin = {});
   /// A perspective camera at `eye` that looks towards `target`, y up; yfov in radians, the picture's size in pixels.

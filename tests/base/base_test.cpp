@@ -64,6 +64,20 @@ TEST(Random, GivesEachIndexItsOwnUniformNumbers) {
   EXPECT_NEAR(of_products / count, 0, 4 / 12.0 / std::sqrt(count));
 }
 
+TEST(Parallel, WhatABodyThrowsReachesTheCaller) {
+  for (const int threads : {1, 4}) {
+    std::atomic<int> calls = 0;
+    const auto run = [&] {
+      parallel_for(100000, 1, threads, [&](size_t i, size_t, int) {
+        calls++;
+        if (i == 10) throw std::bad_alloc();
+      });
+    };
+    EXPECT_THROW(run(), std::bad_alloc);
+    EXPECT_LT(calls, 100000);  // the others' work has ended, too
+  }
+}
+
 TEST(Parallel, VisitsEveryItemOnce) {
   for (int threads : {1, 2, 7}) {
     std::vector<std::atomic<int>> visits(1001);

@@ -52,6 +52,18 @@ TEST_F(FileTest, IsWrittenAsAWholeOrNotAtAll) {
   EXPECT_FALSE(write_file(testing::TempDir(), as_bytes("a folder")));
 }
 
+// Zeros deflate to a thousandth; what people have does not.
+TEST(File, GzipIsInflatedToTwoHundredTimesTheFileAtMost) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_bomb_test";
+  ASSERT_TRUE(write_file(path, as_bytes(gzipped(std::string(size_t(40) << 20, '\0')))));
+  const auto bomb = read_file(path, true);
+  ASSERT_FALSE(bomb);
+  EXPECT_EQ(bomb.error().kind, ErrorKind::limit);
+  ASSERT_TRUE(write_file(path, as_bytes(gzipped(std::string(size_t(8) << 20, '\0')))));
+  EXPECT_TRUE(read_file(path, true)) << "any small content is fine";
+  std::filesystem::remove(path);
+}
+
 // Tools that pack in parallel or in blocks (bgzip) write many members, the last one empty.
 TEST_F(FileTest, IsInflatedMemberByMember) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_gzip_test";

@@ -141,6 +141,78 @@ TEST_F(Commands, VerifyFindsADamagedByte) {
   EXPECT_NE(bad.err.find("block"), std::string::npos);
 }
 
+// A closed room with a lamp, at the coordinates of a survey; lamps shine by their material.
+std::string room_at(double x, double y, double z) {
+  std::string text = "mtllib room.mtl\n";
+  const auto vertex = [&](double dx, double dy, double dz) {
+    std::ostringstream line;
+    line.precision(15);
+    line << "v " << x + dx << ' ' << y + dy << ' ' << z + dz << '\n';
+    text += line.str();
+  };
+  for (const double dz : {0.0, 3.0})
+    for (const auto& [dx, dy] : {std::pair(0.0, 0.0), std::pair(4.0, 0.0), std::pair(4.0, 2.5), std::pair(0.0, 2.5)})
+      vertex(dx, dy, dz);
+  for (const auto& [dx, dz] : {std::pair(1.5, 1.0), std::pair(2.5, 1.0), std::pair(2.5, 2.0), std::pair(1.5, 2.0)})
+    vertex(dx, 2.4, dz);
+  return text + "usemtl wall\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\nusemtl lamp\nf 9 10 11 12\n";
+}
+
+TEST_F(Commands, BakeAdvisesOnTheUnit) {
+  std::string text = room_at(0, 0, 0);
+  write("room.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n");
+  write("room.obj", text);
+  const std::string bake = "bake " + path("room.obj") + " --grid 4 --photons 20k -o " + path("room.lw.glb");
+  EXPECT_EQ(run(bake).err.find("--unit"), std::string::npos);
+  EXPECT_EQ(run(bake + " --unit 1000").err.find("--unit"), std::string::npos);  // it has been said
+  std::string large;
+  std::istringstream words(text);
+  for (std::string line; std::getline(words, line);) {
+    std::istringstream numbers(line);
+    std::string keyword;
+    double x = 0, y = 0, z = 0;
+    if (numbers >> keyword >> x >> y >> z && keyword == "v")
+      line = "v " + std::to_string(1000 * x) + ' ' + std::to_string(1000 * y) + ' ' + std::to_string(1000 * z);
+    large += line + '\n';
+  }
+  write("room.obj", large);
+  EXPECT_NE(run(bake).err.find("4,000 m long: if the file's unit is the millimetre, --unit 0.001"), std::string::npos);
+}
+
+// What is far away is lit as at the origin; points are asked for and meshes are written in the file's coordinates.
+TEST_F(Commands, APlaceFarAwayIsKept) {
+  const double x = 500000, y = 4649776, z = 1024;
+  write("room.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n");
+  write("near.obj", room_at(0, 0, 0));
+  write("far.obj", room_at(x, y, z));
+  std::vector<double> light;
+  for (const auto& [name, dx, dy, dz] : {std::tuple("near", 0.0, 0.0, 0.0), std::tuple("far", x, y, z)}) {
+    const std::string pack = path(std::string(name) + ".lw.glb");
+    const Outcome baked = run("bake " + path(std::string(name) + ".obj") + " --grid 8 --json -o " + pack);
+    ASSERT_EQ(baked.status, 0) << baked.err;
+    EXPECT_GT(json::parse(baked.out)["estimated_error"], 0);
+    EXPECT_EQ(run("verify " + pack).status, 0);
+    std::ostringstream points;
+    points.precision(15);
+    points << "x,y,z,nx,ny,nz\n" << dx + 1 << ',' << dy + 1 << ',' << dz + 1.5 << ",0,1,0\n";
+    write("points.csv", points.str());
+    for (const std::string integrator : {"ivg", "path --spp 4096"}) {
+      const Outcome probed =
+          run("probe " + pack + " --points " + path("points.csv") + " --json --integrator " + integrator);
+      ASSERT_EQ(probed.status, 0) << probed.err;
+      light.push_back(json::parse(probed.out)["points"][0]["rgb"][0]);
+    }
+    const json origin = json::parse(run("info " + pack + " --json").out)["origin"];
+    EXPECT_LE(std::abs(double(origin[0]) - dx) + std::abs(double(origin[1]) - dy), dx > 0 ? 10 : 0);
+    ASSERT_EQ(run("export " + pack + " -o " + path("back.ply")).status, 0);
+    const std::string ply = read(path("back.ply"));
+    EXPECT_EQ(ply.find("property double x") != std::string::npos, dx > 0);
+  }
+  // Grids lie differently in both, hence a tenth; paths have a noise of some per cent.
+  EXPECT_NEAR(light[2], light[0], 0.1 * light[0]);
+  EXPECT_NEAR(light[3], light[1], 0.1 * light[1]);
+}
+
 TEST_F(Commands, InfoTellsWhatIsInside) {
   const json info = json::parse(run("info " + small_pack() + " --blocks --json").out);
   for (const char* key : {"scene", "streams", "meshes", "grids", "lamps"}) EXPECT_TRUE(info.contains(key)) << key;

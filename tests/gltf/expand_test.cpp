@@ -6,6 +6,8 @@
 #include <meshoptimizer.h>
 
 #include "lightwell/base/random.h"
+#include "lightwell/gltf/draco_mesh.h"
+#include "lightwell/texture/transfer.h"
 #include "tests/gltf/samples.h"
 
 namespace lightwell {
@@ -221,6 +223,52 @@ TEST(Draco, BecomesPlainBuffers) {
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(sorted_triangles(*read), sorted_triangles(mesh));
     EXPECT_EQ(read->colors[0], (Vec4f{{1, 0, 0.2f, 1}}));
+  }
+}
+
+TEST(Draco, BareFilesAreRead) {
+  const Mesh mesh = grid(30);
+  const auto read = read_draco_file(encode_draco(mesh));
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(sorted_triangles(*read), sorted_triangles(mesh));
+  EXPECT_NEAR(read->colors[0][2], srgb_to_linear(uint8_t(51)), 1e-6);  // rounding of floats
+}
+
+/// A number as Draco writes it: seven bits a byte, the lowest first.
+void append_varint(ByteWriter& writer, uint32_t value) {
+  for (; value >= 128; value >>= 7) writer.u8(static_cast<uint8_t>(value | 128));
+  writer.u8(static_cast<uint8_t>(value));
+}
+
+TEST(Draco, CountsAreHeldAgainstTheBytes) {
+  const std::vector<uint8_t> real = encode_draco(grid(100));
+  EXPECT_TRUE(read_draco_file(real));
+  for (const uint8_t method : {0, 1}) {  // sequential and edgebreaker
+    ByteWriter writer;
+    writer.append(as_bytes("DRACO"));
+    for (const uint8_t byte : {uint8_t(2), uint8_t(2), uint8_t(1), method, uint8_t(0), uint8_t(0)}) writer.u8(byte);
+    if (method == 1) writer.u8(0);
+    append_varint(writer, 150000000);
+    append_varint(writer, 300000000);
+    writer.append(std::vector<uint8_t>(1000));
+    const auto read = read_draco_file(writer.bytes());
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().kind, ErrorKind::limit);
+    EXPECT_NE(read.error().reason.find("announces 300000000"), std::string::npos) << read.error().reason;
+  }
+}
+
+TEST(Draco, DamagedBareFilesAreRefusedOrRead) {
+  const std::vector<uint8_t> whole = encode_draco(grid(8));
+  Random random(3, 0);
+  for (int i = 0; i < 2000; i++) {
+    auto damaged = whole;
+    for (int n = 0; n < 2; n++)
+      damaged[random.below(static_cast<uint32_t>(whole.size()))] = static_cast<uint8_t>(random.below(256));
+    const auto read = read_draco_file(damaged);
+    if (!read) continue;
+    for (const Face& face : read->faces)
+      for (const uint32_t corner : face) ASSERT_LT(corner, read->positions.size());
   }
 }
 

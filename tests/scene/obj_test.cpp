@@ -200,5 +200,37 @@ TEST_F(ObjTest, SurvivesDamageAndPrefixes) {
   }
 }
 
+// The mask is half as large and grey; what it cuts out is in the alpha of the colours.
+TEST_F(ObjTest, MapsOfOpacityCutOut) {
+  write("leaf.png", write_png(Image{2, 1, 3, {10, 20, 30, 40, 50, 60}}));
+  write("mask.png", write_png(Image{4, 1, 1, {255, 255, 0, 0}}));
+  write("all.mtl", as_bytes("newmtl a\nmap_Kd .\\below\\..\\leaf.png\nmap_d mask.png\nnewmtl b\nmap_d mask.png\n"
+                            "newmtl c\nmap_Kd leaf.png\nmap_d leaf.png\nnewmtl d\nmap_Kd leaf.png\nmap_d none.png\n"));
+  const Scene scene = read_well("mtllib all.mtl\n" + square + "vt 0 0\nvt 1 0\nvt 1 1\n" +
+                                "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 2/2 3/3\nusemtl c\nf 1/1 2/2 3/3\n" +
+                                "usemtl d\nf 1/1 2/2 3/3\n");
+  const auto image_of = [&](size_t primitive) -> const Image& {
+    const Material& material = scene.material_of(scene.primitives.at(primitive));
+    EXPECT_EQ(material.alpha, Material::Alpha::mask);
+    return scene.images.at(static_cast<size_t>(material.base_color_texture.image));
+  };
+  EXPECT_EQ(image_of(0).pixels, (std::vector<uint8_t>{10, 20, 30, 255, 40, 50, 60, 0}));
+  EXPECT_EQ(image_of(1).pixels.size(), 16u);
+  EXPECT_EQ(image_of(1).pixels[3], 255);
+  EXPECT_EQ(image_of(1).pixels[15], 0);
+  EXPECT_EQ(image_of(2).channels, 3);  // its own opacity, of which it has none
+  EXPECT_EQ(image_of(3).channels, 3);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0].rfind("material d: map_d is left out", 0), 0u) << report.warnings[0];
+}
+
+TEST_F(ObjTest, SaysWhichTexturesCannotBeShown) {
+  write("leaf.png", write_png(Image{1, 1, 3, {10, 20, 30}}));
+  write("all.mtl", as_bytes("newmtl a\nmap_Kd leaf.png\n"));
+  read_well("mtllib all.mtl\n" + square + "usemtl a\nf 1 2 3\n");
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"material a: its textures are left out where faces have no vt"});
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What stands far away, is bent by a skin or a morph target, or is hidden looks on the page as in `lightwell render`.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
+import { bake, BIN, temporaryFolder } from './packs.mjs';
+import { room, sphere, writeScene } from './scenes.mjs';
+import { startStaticServer } from './static_server.mjs';
+import { CLIENT, scriptPage } from './test_page.mjs';
+import { complete } from './view.mjs';
+
+/** CIEDE2000; 1 is just visible. What remains is the noise of `render` and 8-bit colours. */
+const MEAN = 0.5;
+const P95 = 1.5;
+const SIZE = [320, 180];
+
+const folder = temporaryFolder();
+const lightwell = (...options) => execFileSync(`${BIN}/lightwell`, [...options, '--quiet'], { encoding: 'utf8' });
+const browser = await forAllTests(launch());
+
+const diffuse = (...color) => ({ pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [...color, 1] } });
+const SHAPES = [
+  { mesh: room(1), material: diffuse(0.7, 0.7, 0.7) },
+  { mesh: sphere(0.25), material: diffuse(0.8, 0.2, 0.2), at: [-0.4, -0.4, -0.3] },
+];
+const LAMPS = [{ lamp: { type: 'point', intensity: 0.5 }, at: [0.3, 0.5, 0.4] }];
+
+/** Appends an accessor of floats (or bytes) to a document of one data URI. */
+function accessor(gltf, array, type, components) {
+  const [prefix, old] = gltf.buffers[0].uri.split(',');
+  const before = Buffer.from(old, 'base64');
+  gltf.buffers[0].uri = `${prefix},${Buffer.concat([before, Buffer.from(array.buffer)]).toString('base64')}`;
+  gltf.buffers[0].byteLength = before.length + array.byteLength;
+  const view = gltf.bufferViews.push({ buffer: 0, byteOffset: before.length, byteLength: array.byteLength }) - 1;
+  const componentType = array instanceof Float32Array ? 5126 : 5121;
+  return gltf.accessors.push({ bufferView: view, componentType, count: array.length / components, type }) - 1;
+}
+
+/** What each scene does to the room with its ball, node 1. */
+const SCENES = {
+  'a scene far away': (gltf) => {
+    const children = gltf.scenes[0].nodes;
+    gltf.scenes[0].nodes = [gltf.nodes.push({ children, translation: [4e6, 3e6, 13e6] }) - 1];
+  },
+  'a skin in its pose': (gltf) => {
+    const joint = gltf.nodes.push({ translation: [0.3, 0.1, -0.3], scale: [1, 1.6, 1] }) - 1;
+    gltf.scenes[0].nodes.push(joint);
+    gltf.skins = [{ joints: [joint] }];
+    gltf.nodes[1].skin = 0;
+    const { attributes } = gltf.meshes[1].primitives[0];
+    const { count } = gltf.accessors[attributes.POSITION];
+    attributes.JOINTS_0 = accessor(gltf, new Uint8Array(4 * count), 'VEC4', 4);
+    const first = Array.from({ length: 4 * count }, (_, i) => (i % 4 === 0 ? 1 : 0));
+    attributes.WEIGHTS_0 = accessor(gltf, Float32Array.from(first), 'VEC4', 4);
+  },
+  'a morph target at its weight': (gltf) => {
+    const { attributes, ...primitive } = gltf.meshes[1].primitives[0];
+    const { count } = gltf.accessors[attributes.POSITION];
+    const moved = Float32Array.from({ length: 3 * count }, (_, i) => [0.6, 0.2, 0][i % 3]);
+    const target = accessor(gltf, moved, 'VEC3', 3);
+    Object.assign(gltf.accessors[target], { min: [0.6, 0.2, 0], max: [0.6, 0.2, 0] });
+    gltf.meshes[1] = { primitives: [{ attributes, ...primitive, targets: [{ POSITION: target }] }], weights: [0.5] };
+  },
+  'a hidden node': (gltf) => {
+    gltf.extensionsUsed.push('KHR_node_visibility');
+    gltf.nodes[1].extensions = { KHR_node_visibility: { visible: false } };
+  },
+};
+
+for (const [name, change] of Object.entries(SCENES))
+  test(`${name} looks on the page as in lightwell render`, async (t) => {
+    const scene = writeScene(`${folder}/${name}.gltf`, SHAPES, LAMPS);
+    const gltf = JSON.parse(readFileSync(scene, 'utf8'));
+    gltf.cameras = [{ type: 'perspective', perspective: { yfov: 1, znear: 0.01 } }];
+    gltf.scenes[0].nodes.push(gltf.nodes.push({ camera: 0, translation: [0, 0, 0.95] }) - 1);
+    change(gltf);
+    writeFileSync(scene, JSON.stringify(gltf));
+    const pack = bake(scene, `${folder}/${name}.lw.glb`);
+    const routes = { ...(await scriptPage('tests/e2e/pages/lambert.ts')), ...CLIENT, '/pack.lw.glb': pack };
+    const server = await forTest(t, startStaticServer(routes));
+    const { page, errors } = await forTest(t, openPage(browser));
+    await page.goto(`${server.url}?light=total`);
+    await page.setViewportSize({ width: SIZE[0], height: SIZE[1] });
+    await complete(page);
+    const url = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
+    writeFileSync(`${folder}/page.png`, Buffer.from(url.split(',')[1], 'base64'));
+    const picture = ['--integrator', 'ivg', '--tone', 'none', '--size', SIZE.join('x'), '--spp', '64'];
+    lightwell('render', pack, '-o', `${folder}/render.png`, ...picture);
+    const { mean, p95 } = JSON.parse(lightwell('diff', `${folder}/page.png`, `${folder}/render.png`, '--metric', 'deltae', '--json'));
+    assert.ok(mean <= MEAN && p95 <= P95, `mean ${mean}, 95th percentile ${p95}`);
+    assert.deepEqual(errors, []);
+  });
