@@ -59,9 +59,9 @@ bool is_dark(const LightField& field) {
 // Few scenes are kilometres long, many files are in millimetres or centimetres and do not say so.
 void advise_on_unit(const Box3f& focus, Report& report) {
   constexpr float longest = 1000;
-  const float length = max_component(focus.size());
-  if (length > longest)
-    report.warn("what the scene is about is " + grouped(static_cast<uint64_t>(length)) +
+  const float extent = max_component(focus.size());
+  if (extent > longest)
+    report.warn("what the scene is about is " + grouped(static_cast<uint64_t>(extent)) +
                 " m long: if the file's unit is the millimetre, --unit 0.001 says so");
 }
 

@@ -190,7 +190,7 @@ TEST_F(Commands, APlaceFarAwayIsKept) {
     const std::string pack = path(std::string(name) + ".lw.glb");
     const Outcome baked = run("bake " + path(std::string(name) + ".obj") + " --grid 8 --json -o " + pack);
     ASSERT_EQ(baked.status, 0) << baked.err;
-    EXPECT_GT(json::parse(baked.out)["estimated_error"], 0);
+    EXPECT_GT(json::parse(baked.out)["estimated_error"].get<double>(), 0);
     EXPECT_EQ(run("verify " + pack).status, 0);
     std::ostringstream points;
     points.precision(15);
@@ -200,10 +200,10 @@ TEST_F(Commands, APlaceFarAwayIsKept) {
       const Outcome probed =
           run("probe " + pack + " --points " + path("points.csv") + " --json --integrator " + integrator);
       ASSERT_EQ(probed.status, 0) << probed.err;
-      light.push_back(json::parse(probed.out)["points"][0]["rgb"][0]);
+      light.push_back(json::parse(probed.out)["points"][0]["rgb"][0].get<double>());
     }
     const json origin = json::parse(run("info " + pack + " --json").out)["origin"];
-    EXPECT_LE(std::abs(double(origin[0]) - dx) + std::abs(double(origin[1]) - dy), dx > 0 ? 10 : 0);
+    EXPECT_LE(std::abs(origin[0].get<double>() - dx) + std::abs(origin[1].get<double>() - dy), dx > 0 ? 10 : 0);
     ASSERT_EQ(run("export " + pack + " -o " + path("back.ply")).status, 0);
     const std::string ply = read(path("back.ply"));
     EXPECT_EQ(ply.find("property double x") != std::string::npos, dx > 0);

@@ -200,7 +200,7 @@ TEST_F(ObjTest, SurvivesDamageAndPrefixes) {
   }
 }
 
-// The mask is half as large and grey; what it cuts out is in the alpha of the colours.
+// The mask is grey and of another size; what it cuts out is in the alpha of the colours.
 TEST_F(ObjTest, MapsOfOpacityCutOut) {
   write("leaf.png", write_png(Image{2, 1, 3, {10, 20, 30, 40, 50, 60}}));
   write("mask.png", write_png(Image{4, 1, 1, {255, 255, 0, 0}}));
