@@ -29,6 +29,18 @@ Result<std::vector<Vec<float, N>>> values_of(const draco::Mesh& mesh, draco::Geo
   return values;
 }
 
+/// What the values of an attribute are to be multiplied by to be shares of 1: whole numbers stand for shares of the
+/// greatest one, whether the file says so or not.
+float to_share(const draco::Mesh& mesh, draco::GeometryAttribute::Type type) {
+  const draco::PointAttribute* attribute = mesh.GetNamedAttribute(type);
+  if (!attribute || attribute->normalized()) return 1;
+  switch (attribute->data_type()) {
+    case draco::DT_UINT8: return 1 / 255.0f;
+    case draco::DT_UINT16: return 1 / 65535.0f;
+    default: return 1;
+  }
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const draco::Mesh>> decode_draco(Bytes stream, const std::string& name) {
@@ -53,8 +65,13 @@ Result<Mesh> read_draco_file(Bytes file) {
   LW_TRY(texcoords, values_of<2>(*decoded, draco::GeometryAttribute::TEX_COORD, 0));
   LW_TRY(colors, values_of<4>(*decoded, draco::GeometryAttribute::COLOR, 1));
   for (Vec2f& texcoord : texcoords) texcoord[1] = 1 - texcoord[1];
-  for (Vec4f& color : colors)
-    for (int i = 0; i < 3; i++) color[i] = srgb_to_linear(std::clamp(color[i], 0.0f, 1.0f));
+  const float share = to_share(*decoded, draco::GeometryAttribute::COLOR);
+  const bool has_alpha = decoded->GetNamedAttribute(draco::GeometryAttribute::COLOR) != nullptr &&
+                         decoded->GetNamedAttribute(draco::GeometryAttribute::COLOR)->num_components() > 3;
+  for (Vec4f& color : colors) {
+    for (int i = 0; i < 3; i++) color[i] = srgb_to_linear(std::clamp(color[i] * share, 0.0f, 1.0f));
+    if (has_alpha) color[3] = std::clamp(color[3] * share, 0.0f, 1.0f);
+  }
   mesh.positions = std::move(positions);
   mesh.normals = std::move(normals);
   mesh.texcoords[0] = std::move(texcoords);

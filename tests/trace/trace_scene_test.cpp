@@ -83,9 +83,9 @@ TEST(TraceScene, RefusesPositionsBeyondAFloatsRange) {
   }
 }
 
-TEST(TraceScene, LeavesOutWhatDeformsAndRefusesWhatIsEmpty) {
+TEST(TraceScene, RefusesWhatIsEmpty) {
   Scene scene = scene_of(room(lo, hi), lambertian(0.5f));
-  scene.primitives[0].deforming = true;
+  scene.primitives[0].mesh.faces.clear();
   const auto result = TraceScene::build(scene);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().message(), "scene: it has no triangles");
