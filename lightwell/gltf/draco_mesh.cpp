@@ -11,15 +11,24 @@
 namespace lightwell {
 namespace {
 
-/// The values of an attribute at all points, those that the file lacks being `filler`; empty without the attribute.
+/// By what colours are multiplied to be fractions of one: files have whole numbers, marked as such or not.
+float color_scale(const draco::Mesh& mesh) {
+  const draco::PointAttribute* attribute = mesh.GetNamedAttribute(draco::GeometryAttribute::COLOR);
+  if (!attribute || attribute->normalized()) return 1;
+  if (attribute->data_type() == draco::DT_UINT8) return 1.0f / UINT8_MAX;
+  return attribute->data_type() == draco::DT_UINT16 ? 1.0f / UINT16_MAX : 1;
+}
+
+/// The values of an attribute at all points, those that the file lacks being those of `filler`; empty without the
+/// attribute.
 template <int N>
 Result<std::vector<Vec<float, N>>> values_of(const draco::Mesh& mesh, draco::GeometryAttribute::Type type,
-                                             float filler) {
+                                             const Vec<float, N>& filler) {
   std::vector<Vec<float, N>> values;
   const draco::PointAttribute* attribute = mesh.GetNamedAttribute(type);
   if (!attribute) return values;
   const auto components = static_cast<int8_t>(std::min<int>(N, attribute->num_components()));
-  values.resize(mesh.num_points(), Vec<float, N>::filled(filler));
+  values.resize(mesh.num_points(), filler);
   for (uint32_t i = 0; i < mesh.num_points(); i++) {
     const draco::AttributeValueIndex index = attribute->mapped_index(draco::PointIndex(i));
     if (index.value() >= attribute->size() || !attribute->ConvertValue<float>(index, components, values[i].e.data()) ||
@@ -27,18 +36,6 @@ Result<std::vector<Vec<float, N>>> values_of(const draco::Mesh& mesh, draco::Geo
       return fail("vertex " + std::to_string(i), "damaged Draco data");
   }
   return values;
-}
-
-/// What the values of an attribute are to be multiplied by to be shares of 1: whole numbers stand for shares of the
-/// greatest one, whether the file says so or not.
-float to_share(const draco::Mesh& mesh, draco::GeometryAttribute::Type type) {
-  const draco::PointAttribute* attribute = mesh.GetNamedAttribute(type);
-  if (!attribute || attribute->normalized()) return 1;
-  switch (attribute->data_type()) {
-    case draco::DT_UINT8: return 1 / 255.0f;
-    case draco::DT_UINT16: return 1 / 65535.0f;
-    default: return 1;
-  }
 }
 
 }  // namespace
@@ -60,17 +57,16 @@ Result<std::shared_ptr<const draco::Mesh>> decode_draco(Bytes stream, const std:
 Result<Mesh> read_draco_file(Bytes file) {
   LW_TRY(decoded, decode_draco(file, ""));
   Mesh mesh;
-  LW_TRY(positions, values_of<3>(*decoded, draco::GeometryAttribute::POSITION, 0));
-  LW_TRY(normals, values_of<3>(*decoded, draco::GeometryAttribute::NORMAL, 0));
-  LW_TRY(texcoords, values_of<2>(*decoded, draco::GeometryAttribute::TEX_COORD, 0));
-  LW_TRY(colors, values_of<4>(*decoded, draco::GeometryAttribute::COLOR, 1));
+  LW_TRY(positions, values_of<3>(*decoded, draco::GeometryAttribute::POSITION, {}));
+  LW_TRY(normals, values_of<3>(*decoded, draco::GeometryAttribute::NORMAL, {}));
+  LW_TRY(texcoords, values_of<2>(*decoded, draco::GeometryAttribute::TEX_COORD, {}));
+  const float scale = color_scale(*decoded);
+  const Vec4f opaque{{0, 0, 0, 1 / scale}};
+  LW_TRY(colors, values_of<4>(*decoded, draco::GeometryAttribute::COLOR, opaque));
   for (Vec2f& texcoord : texcoords) texcoord[1] = 1 - texcoord[1];
-  const float share = to_share(*decoded, draco::GeometryAttribute::COLOR);
-  const bool has_alpha = decoded->GetNamedAttribute(draco::GeometryAttribute::COLOR) != nullptr &&
-                         decoded->GetNamedAttribute(draco::GeometryAttribute::COLOR)->num_components() > 3;
   for (Vec4f& color : colors) {
-    for (int i = 0; i < 3; i++) color[i] = srgb_to_linear(std::clamp(color[i] * share, 0.0f, 1.0f));
-    if (has_alpha) color[3] = std::clamp(color[3] * share, 0.0f, 1.0f);
+    color = min(max(color * scale, Vec4f{}), Vec4f::filled(1));
+    for (int i = 0; i < 3; i++) color[i] = srgb_to_linear(color[i]);
   }
   mesh.positions = std::move(positions);
   mesh.normals = std::move(normals);
