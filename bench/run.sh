@@ -43,7 +43,7 @@ bench_truth() {
       most_bias=1
       [ $points = free ] && most_bias=0.5
       show "$lightwell" probe "$shared/truth/$scene.glb" --points "$shared/truth/$scene.$points.indirect.csv" \
-        --integrator ivg --grid 32 --quiet >"$out/$scene.$points.csv"
+        --integrator ivg --quiet >"$out/$scene.$points.csv"
       printf '%s %s\n' "$scene" "$points"
       python3 "$shared/tools/compare_truth.py" "$shared/truth/$scene.$points.indirect.csv" "$out/$scene.$points.csv" --max-rms 3 --max-bias $most_bias |
         grep -E '^(rms|bias|p95)'
