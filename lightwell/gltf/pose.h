@@ -10,13 +10,14 @@ namespace lightwell {
 
 /// What bends a primitive: morph targets and a skin. Without either it is as its file has it.
 struct Pose {
-  std::vector<double> weights;    ///< of the morph targets, in their order; missing ones are 0
-  std::vector<Transform> joints;  ///< of the skin, each with its inverse bind matrix: from the mesh at rest to its place
+  std::vector<double> weights;  ///< of the morph targets, in their order; missing ones are 0
+  std::vector<Transform>
+      joints;  ///< of the skin, each with its inverse bind matrix: from the mesh at rest to its place
 };
 
 /// Puts a primitive's positions and normals into a pose, by the equations of glTF 2.0, sections 3.7.2.2 and 3.7.3.3.
-/// `only` (null: all) are those of the primitive's `vertices` that the mesh has. Vertices without weight follow the first joint. Fails where an
-/// attribute is of a type or count that it cannot have, or names a joint that is not there.
+/// `only` (null: all) are those of the primitive's `vertices` that the mesh has. Vertices without weight follow the
+/// first joint. Fails where an attribute is of a type or count that it cannot have, or names a joint that is not there.
 Result<void> apply_pose(const Document& document, const Json& primitive, const std::string& name, const Pose& pose,
                         size_t vertices, const std::vector<uint32_t>* only, Mesh& mesh);
 

@@ -29,9 +29,8 @@ Mesh creased_mesh(const std::vector<Vec3f>& corners, const std::vector<Vec4f>& c
   std::iota(order.begin(), order.end(), 0);
   order.erase(std::remove_if(order.begin(), order.end(), [&](uint32_t corner) { return !has_area(corner); }),
               order.end());
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return corners[a] == corners[b] ? a < b : corners[a] < corners[b];
-  });
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return corners[a] == corners[b] ? a < b : corners[a] < corners[b]; });
 
   Mesh mesh;
   std::vector<uint32_t> vertices(corners.size());

@@ -201,8 +201,7 @@ void append_texture(const FaceTexture& texture, bool by_corner, size_t textures,
   const bool known = texture.number >= 0 && texture.number < static_cast<double>(textures);
   polygons.textures.push_back(known && complete ? static_cast<int>(texture.number) : -1);
   if (!by_corner) return;
-  for (size_t i = 0; i < corners; i++)
-    polygons.corner_texcoords.push_back(complete ? texture.texcoords[i] : Vec2f{});
+  for (size_t i = 0; i < corners; i++) polygons.corner_texcoords.push_back(complete ? texture.texcoords[i] : Vec2f{});
 }
 
 Result<void> read_faces(const PlyElement& element, size_t textures, PlyValues& values, PlyPolygons& polygons) {

@@ -25,7 +25,8 @@ struct Facets {
 
 std::string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
-/// Some programs begin binary files with "solid", too; the letters of a text would be a number of facets beyond any file.
+/// Some programs begin binary files with "solid", too; the letters of a text would be a number of facets beyond any
+/// file.
 bool is_binary(Bytes file) {
   ByteReader reader(file);
   reader.take(header_size);
@@ -41,8 +42,7 @@ std::optional<Vec4f> color_of(uint16_t word, bool magics, const Vec4f& of_whole)
   const bool marked = word >> 15 & 1;
   if (marked == magics) return magics ? std::optional(of_whole) : std::nullopt;
   Vec4f color = Vec4f::filled(1);
-  for (int i = 0; i < 3; i++)
-    color[magics ? i : 2 - i] = srgb_to_linear(static_cast<float>(word >> (5 * i) & 31) / 31);
+  for (int i = 0; i < 3; i++) color[magics ? i : 2 - i] = srgb_to_linear(static_cast<float>(word >> (5 * i) & 31) / 31);
   return color;
 }
 

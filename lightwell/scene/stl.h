@@ -9,9 +9,9 @@ namespace lightwell {
 /// "solid".
 bool is_stl(Bytes file);
 
-/// An STL file as a glTF document of one object: its triangles, binary or ascii, with the facets' colours where a binary
-/// file has them (VisCAM's and Magics' forms). Edges sharper than 40 degrees stay, the rest is smooth, since the format
-/// knows no normals at corners. Errors name the facet or the line.
+/// An STL file as a glTF document of one object: its triangles, binary or ascii, with the facets' colours where a
+/// binary file has them (VisCAM's and Magics' forms). Edges sharper than 40 degrees stay, the rest is smooth, since the
+/// format knows no normals at corners. Errors name the facet or the line.
 Result<Document> stl_document(Bytes file, Report& report);
 
 }  // namespace lightwell

@@ -155,7 +155,8 @@ std::string room_at(double x, double y, double z) {
       vertex(dx, dy, dz);
   for (const auto& [dx, dz] : {std::pair(1.5, 1.0), std::pair(2.5, 1.0), std::pair(2.5, 2.0), std::pair(1.5, 2.0)})
     vertex(dx, 2.4, dz);
-  return text + "usemtl wall\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\nusemtl lamp\nf 9 10 11 12\n";
+  return text +
+         "usemtl wall\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\nusemtl lamp\nf 9 10 11 12\n";
 }
 
 TEST_F(Commands, BakeAdvisesOnTheUnit) {

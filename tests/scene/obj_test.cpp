@@ -228,8 +228,7 @@ TEST_F(ObjTest, SaysWhichTexturesCannotBeShown) {
   write("leaf.png", write_png(Image{1, 1, 3, {10, 20, 30}}));
   write("all.mtl", as_bytes("newmtl a\nmap_Kd leaf.png\n"));
   read_well("mtllib all.mtl\n" + square + "usemtl a\nf 1 2 3\n");
-  EXPECT_EQ(report.warnings,
-            std::vector<std::string>{"material a: its textures are left out where faces have no vt"});
+  EXPECT_EQ(report.warnings, std::vector<std::string>{"material a: its textures are left out where faces have no vt"});
 }
 
 }  // namespace

@@ -49,9 +49,7 @@ TEST(Place, FewStraysDoNotMatter) {
   EXPECT_EQ(origin_amid(places), Vec3d{});
 }
 
-TEST(Place, APointAloneIsItsOwnOrigin) {
-  EXPECT_EQ(origin_amid({{{{1e6, 2, 3}}, 0, 1}}), (Vec3d{{1e6, 2, 3}}));
-}
+TEST(Place, APointAloneIsItsOwnOrigin) { EXPECT_EQ(origin_amid({{{{1e6, 2, 3}}, 0, 1}}), (Vec3d{{1e6, 2, 3}})); }
 
 }  // namespace
 }  // namespace lightwell

@@ -101,7 +101,8 @@ TEST(Stl, ReadsColoursOfBothKinds) {
 
 TEST(Stl, AFlatEdgeIsSmoothAndASharpOneIsNot) {
   const auto pair = [](float rise) {
-    const std::vector<Vec3f> corners = {{{0, 0, 0}}, {{0, 1, 0}}, {{-1, 0, 0}}, {{0, 0, 0}}, {{1, 0, rise}}, {{0, 1, 0}}};
+    const std::vector<Vec3f> corners = {{{0, 0, 0}}, {{0, 1, 0}},    {{-1, 0, 0}},
+                                        {{0, 0, 0}}, {{1, 0, rise}}, {{0, 1, 0}}};
     return creased_mesh(corners, {});
   };
   EXPECT_EQ(pair(0.3f).positions.size(), 4u);
