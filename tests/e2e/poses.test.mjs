@@ -22,7 +22,11 @@ const folder = temporaryFolder();
 const lightwell = (...options) => execFileSync(`${BIN}/lightwell`, [...options, '--quiet'], { encoding: 'utf8' });
 const browser = await forAllTests(launch());
 
-const diffuse = (...color) => ({ pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [...color, 1] } });
+// The page shows it without gloss.
+const diffuse = (...color) => ({
+  pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [...color, 1] },
+  extensions: { KHR_materials_specular: { specularFactor: 0 } },
+});
 const SHAPES = [
   { mesh: room(1), material: diffuse(0.7, 0.7, 0.7) },
   { mesh: sphere(0.25), material: diffuse(0.8, 0.2, 0.2), at: [-0.4, -0.4, -0.3] },
@@ -77,6 +81,7 @@ for (const [name, change] of Object.entries(SCENES))
     const gltf = JSON.parse(readFileSync(scene, 'utf8'));
     gltf.cameras = [{ type: 'perspective', perspective: { yfov: 1, znear: 0.01 } }];
     gltf.scenes[0].nodes.push(gltf.nodes.push({ camera: 0, translation: [0, 0, 0.95] }) - 1);
+    gltf.extensionsUsed.push('KHR_materials_specular');
     change(gltf);
     writeFileSync(scene, JSON.stringify(gltf));
     const pack = bake(scene, `${folder}/${name}.lw.glb`);
