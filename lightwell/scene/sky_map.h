@@ -33,7 +33,8 @@ inline Vec3f pixel_radiance(const RadianceImage& map, size_t pixel) {
 inline Vec3f pixel_direction(const RadianceImage& map, size_t pixel) {
   constexpr float half_turn = std::numbers::pi_v<float>;
   const auto width = static_cast<size_t>(map.width);
-  const float polar = half_turn * (static_cast<float>(pixel / width) + 0.5f) / static_cast<float>(map.height);
+  const size_t row = pixel / width;
+  const float polar = half_turn * (static_cast<float>(row) + 0.5f) / static_cast<float>(map.height);
   const float angle =
       2 * half_turn * ((static_cast<float>(pixel % width) + 0.5f) / static_cast<float>(map.width) - 0.5f);
   return {{std::sin(polar) * std::sin(angle), std::cos(polar), -std::sin(polar) * std::cos(angle)}};
