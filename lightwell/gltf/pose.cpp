@@ -35,7 +35,8 @@ Result<Influences> read_influences(const Document& document, const Json& primiti
   for (int set = 0; attributes.contains("JOINTS_" + std::to_string(set)); set++) {
     for (const char* semantic : {"JOINTS_", "WEIGHTS_"}) {
       const std::string attribute = semantic + std::to_string(set);
-      const std::string place = name + ".attributes." + attribute;
+      std::string place = name + ".attributes.";
+      place += attribute;
       auto data = locate(document, index_of(attributes, attribute.c_str()));
       if (!data) return fail(in_element(data.error(), place));
       if (data->type.rows != 4 || data->type.columns != 1) return fail(place, "is of a type that it cannot have");
