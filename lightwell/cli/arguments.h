@@ -20,11 +20,11 @@ struct SceneOptions {
   std::optional<int> nodes;  ///< of a regular grid; without, the grid is adaptive if the method can fill it
   uint64_t photons = 8'000'000;
   const EstimatorKind* method = &estimators().front();
-  int threads = 0;  ///< 0: all processors
+  int threads = 0;                    ///< 0: all processors
+  static constexpr int regular = 32;  ///< nodes of a regular grid where nothing is said
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
   LightBakeOptions light(const LuminaireSet& contained) const {
-    constexpr int regular = 32;
     return {.nodes = nodes.value_or(method->node_by_node ? 0 : regular),
             .method = method,
             .estimator = {.photons = photons, .seed = import.seed, .contained = contained, .threads = threads}};

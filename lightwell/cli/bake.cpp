@@ -42,6 +42,7 @@ struct Bake {
   std::vector<uint8_t> file;
   std::unique_ptr<NodeJournal> journal;  // with --resume
   size_t resumed_nodes = 0;
+  uint64_t photons = 0;
   LightBakeStatistics light_statistics;
   PackStatistics pack_statistics;
   double import_seconds = 0, light_seconds = 0, geometry_seconds = 0, write_seconds = 0;
@@ -76,9 +77,18 @@ Result<void> import_scene(const Options& options, Progress& progress, Bake& bake
 
 std::string journal_name(const Options& options) { return options.output + ".journal"; }
 
+/// Refuses options that do not go together, before any work.
+Result<void> check_options(const Options& options) {
+  const bool limited = options.target_error || options.budget > 0 || options.stop_after || options.preview;
+  if (limited && options.scene.nodes)
+    return fail("--grid",
+                "N is all there is to say: --target-error, --budget, --stop-after and --preview go with auto");
+  if (options.resume && options.output == "-") return fail("--resume", "needs an output that is a file");
+  return {};
+}
+
 Result<void> open_journal(const Options& options, Bake& bake) {
   if (!options.resume) return {};
-  if (options.output == "-") return fail("--resume", "needs an output that is a file");
   LW_TRY(journal, NodeJournal::open(journal_name(options)));
   bake.resumed_nodes = journal->size();
   bake.journal = std::move(journal);
@@ -93,15 +103,10 @@ void close_journal(const Options& options, Bake& bake) {
   std::filesystem::remove(journal_name(options), ignored);
 }
 
-Result<LightBakeOptions> light_options(const Options& options, const Bake& bake) {
+LightBakeOptions light_options(const Options& options, const Bake& bake) {
   LightBakeOptions light = options.scene.light(bake.plan.contained);
-  const bool limited = options.target_error || options.budget > 0 || options.stop_after || options.preview;
-  if (limited && options.scene.nodes)
-    return fail("--grid",
-                "N is all there is to say: --target-error, --budget, --stop-after and --preview go with auto");
   // The stratified slices of S08 are those of a regular grid.
-  constexpr int of_slices = 32;
-  if (options.order == LightNodeOrder::slices && !options.scene.nodes) light.nodes = of_slices;
+  if (options.order == LightNodeOrder::slices && !options.scene.nodes) light.nodes = SceneOptions::regular;
   if (options.target_error) light.target_error = static_cast<float>(*options.target_error / 100);
   if (options.budget > 0) light.most_bytes = options.budget;
   if (options.stop_after) light.seconds = *options.stop_after;
@@ -120,7 +125,8 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   bake.plan = plan_lamps(world);
   const LuminaireSet& contained = bake.plan.contained;
   LW_CHECK(open_journal(options, bake));
-  LW_TRY(light, light_options(options, bake));
+  const LightBakeOptions light = light_options(options, bake);
+  bake.photons = light.estimator.photons;
   LW_TRY(grids, bake_light(world, light, progress, bake.light_statistics));
   bake.light.lamps = bake.plan.client;
   PackGrid stated;
@@ -149,6 +155,7 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
 }
 
 Result<void> run(const Options& options, Progress& progress, Bake& bake) {
+  LW_CHECK(check_options(options));
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
   progress.stage("importing", 0, "");
@@ -183,7 +190,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
       {"triangles", bake.pack_statistics.triangles},
       {"vertices", bake.pack_statistics.vertices},
       {"nodes", bake.light_statistics.nodes},
-      {"photons", options.scene.photons},
+      {"photons", bake.photons},
       {"rays", bake.light_statistics.rays},
       {"seconds",
        {{"import", bake.import_seconds},

@@ -85,6 +85,8 @@ TEST_F(Commands, EveryKindOfGridIsPackedAndRead) {
   EXPECT_EQ(refused.status, 1);
   EXPECT_NE(refused.err.find("go with auto"), std::string::npos) << refused.err;
   EXPECT_FALSE(fs::exists(path("no.glb")));
+  EXPECT_EQ(run("bake box-small --grid 6 --preview --resume -o " + path("no.glb")).status, 1);
+  EXPECT_FALSE(fs::exists(path("no.glb.journal"))) << "what is refused leaves nothing";
 }
 
 TEST_F(Commands, AdaptiveGridsKeepToBudgetTargetAndTime) {
