@@ -17,6 +17,7 @@ class LightAsset : public AssetDecoder {
 
   virtual const GridShape& shape() const = 0;
   virtual float normal_offset() const = 0;
+  virtual std::span<const Brick> bricks() const { return {}; }
   /// The grid as far as it has come, irradiance in W/m2, its missing nodes filled.
   virtual LightGrid filled(Fill fill) const = 0;
   /// Number of known nodes.

@@ -19,6 +19,7 @@ class LightLattice final : public LightAsset {
   Result<void> append(Bytes payload) override { return decoder_.append(payload); }
   const GridShape& shape() const override { return decoder_.layout().shape; }
   float normal_offset() const override { return decoder_.layout().normal_offset; }
+  std::span<const Brick> bricks() const override { return decoder_.layout().tree.bricks(); }
   LightGrid filled(Fill fill) const override { return decoder_.grid(fill); }
   size_t received() const override { return decoder_.received(); }
   uint64_t total() const override { return decoder_.total(); }

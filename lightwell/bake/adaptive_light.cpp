@@ -144,6 +144,21 @@ LightGrid AdaptiveLight::grid(float most_insides) const {
   return grid;
 }
 
+Result<LightGrid> AdaptiveLight::relit(const LightGrid& like, const GatheredLight& light, NodeLight nodes, int threads,
+                                       Progress& progress) {
+  const auto insides_of = [](float weight) { return weight > node_weight(false) ? 0.0f : 1.0f; };
+  for (size_t node = 0; node < like.valid.size(); node++)
+    nodes.insides[node] = insides_of(node_weight(like.valid[node]));
+  AdaptiveLight relit(light, like.shape, std::move(nodes), threads);
+  LW_CHECK(relit.divide({like.tree.bricks().begin(), like.tree.bricks().end()}, progress));
+  for (const BrickNode& node : relit.brick_nodes_.nodes())
+    relit.gathered_.at(key_of(relit.tree_.bricks()[node.brick], node.point)).insides =
+        insides_of(like.bricks[node.brick][static_cast<size_t>(node.point)].weight);
+  LightGrid grid = relit.grid(0.5f);
+  grid.normal_offset = like.normal_offset;
+  return grid;
+}
+
 Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& progress) {
   for (const Brick& brick : bricks) tree_.add(brick);
   brick_nodes_ = BrickNodes(tree_);

@@ -41,6 +41,11 @@ class AdaptiveLight {
   /// The grid of which nodes with at most so large a share of insides around them are valid.
   LightGrid grid(float most_insides) const;
 
+  /// A grid of the cells and valid nodes of another one, in another light: `nodes` is that of the grid's own nodes.
+  /// Fails when `progress` asks to stop.
+  static Result<LightGrid> relit(const LightGrid& like, const GatheredLight& light, NodeLight nodes, int threads,
+                                 Progress& progress);
+
   /// The number of nodes.
   size_t count() const { return shape_.count() + brick_nodes_.nodes().size(); }
   uint64_t rays() const { return nodes_.rays; }

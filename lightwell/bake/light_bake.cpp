@@ -11,6 +11,7 @@
 #include "lightwell/bake/thin_walls.h"
 #include "lightwell/base/assert.h"
 #include "lightwell/base/parallel.h"
+#include "lightwell/light/grid_sum.h"
 #include "lightwell/light/stream.h"
 
 namespace lightwell {
@@ -141,10 +142,47 @@ class BestGrid {
   size_t nodes_ = 0;
 };
 
-/// Bakes one grid over a box; adds to the statistics.
-Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box3f& box,
-                           const LightBakeOptions& options, const Effort& effort, Progress& progress,
-                           LightBakeStatistics& statistics) {
+/// The part of a scene that grids cover, and where its light is known.
+struct Place {
+  const World& world;
+  const FreeSpace& space;
+  Box3f box;
+  float cell = 0;  ///< of the light of surfaces, metres
+};
+
+/// The light of a group at the nodes of a grid, which holds that of all.
+Result<LightGrid> light_of_group(const Place& place, const LightGrid& all, const LuminaireSet& luminaires,
+                                 const LightBakeOptions& options, Progress& progress, uint64_t& rays) {
+  const std::unique_ptr<const World> world = place.world.lit_by(luminaires);
+  LW_TRY(cache, light_surfaces(*world, place.box, all.shape, place.cell, options.estimator, progress));
+  const BakeScene scene{*world, place.space, cache, place.box};
+  LW_TRY(nodes, light_nodes(scene, all.shape, options, progress));
+  rays += cache.rays() + nodes.rays;
+  return AdaptiveLight::relit(all, GatheredLight(scene, options.estimator), std::move(nodes), options.estimator.threads,
+                              progress);
+}
+
+/// The same grid in the light of each group. `all` becomes their sum, which is what is looked up in the end.
+Result<std::vector<BakedGrid>> light_by_groups(const Place& place, LightGrid& all, const LightBakeOptions& options,
+                                               Progress& progress, uint64_t& rays) {
+  std::vector<BakedGrid> grids;
+  if (options.groups.size() <= 1) {
+    grids.push_back({.grid = all, .group = {}});
+    return grids;
+  }
+  for (const LightGroup& group : options.groups) {
+    LW_TRY(grid, light_of_group(place, all, group.luminaires, options, progress, rays));
+    grids.push_back({.grid = std::move(grid), .group = group.name});
+  }
+  all = grids.front().grid;
+  for (size_t i = 1; i < grids.size(); i++) add_light(all, grids[i].grid);
+  return grids;
+}
+
+/// Bakes the grids over a box; adds to the statistics.
+Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& space, const Box3f& box,
+                                        const LightBakeOptions& options, const Effort& effort, Progress& progress,
+                                        LightBakeStatistics& statistics) {
   const EstimatorOptions& estimator = options.estimator;
   LW_TRY(shapes, place_nodes(world, space, box, effort));
   const float cell = max_component(shapes.front().cell) / static_cast<float>(effort.adaptive ? 6 : 3);
@@ -170,6 +208,7 @@ Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box
     fitting.surface_points = 4000;
     fitting.free_points = 1000;
     fitting.rays /= 4;
+    fitting.near = 8;
     fitting.seed ^= 0xb71c;
     LW_TRY(fit, TestPoints::gather(light, fitting, progress));
     const uint64_t before = chosen->rays();
@@ -180,25 +219,37 @@ Result<BakedGrid> bake_box(const World& world, const FreeSpace& space, const Box
     best.consider(*chosen);
   }
   statistics.nodes += best.nodes();
-  BakedGrid baked{.grid = best.take()};
+  LightGrid all = best.take();
+  LW_TRY(grids, light_by_groups({world, space, box, cell}, all, options, progress, statistics.rays));
   // Points that had no say in what was chosen, and that know what is near them without the cache's blur.
   TestPointOptions judging = testing;
   judging.seed ^= 0x0dd5;
   judging.near = 8;
   judging.rays /= 2;
   LW_TRY(judge, TestPoints::gather(light, judging, progress));
-  baked.estimated_error = judge.error(baked.grid);
-  const std::vector<uint8_t>& valid = baked.grid.valid;
-  statistics.invalid_nodes += static_cast<size_t>(std::count(valid.begin(), valid.end(), 0));
-  return baked;
+  const float error = judge.error(all);
+  for (BakedGrid& baked : grids) baked.estimated_error = error;
+  statistics.invalid_nodes += static_cast<size_t>(std::count(all.valid.begin(), all.valid.end(), 0));
+  return grids;
 }
 
 }  // namespace
 
-LightField field_of(std::vector<BakedGrid> grids, const GridContents& contents) {
+std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids, const LuminaireSet& contained,
+                                         const World& world, std::span<const LightGroup> groups) {
+  const std::vector<Luminaire>& luminaires = world.lights().luminaires();
   std::vector<LightField::Layer> layers;
-  for (BakedGrid& baked : grids) layers.push_back({std::move(baked.grid), contents, baked.priority});
-  return LightField(std::move(layers));
+  for (BakedGrid& baked : grids) {
+    GridContents contents{.group = baked.group};
+    const auto group = std::ranges::find(groups, baked.group, &LightGroup::name);
+    for (size_t i = 0; i < luminaires.size(); i++) {
+      const auto number = static_cast<int>(i);
+      if (!contained.contains(number) || (group != groups.end() && !group->luminaires.contains(number))) continue;
+      (luminaires[i].kind() == Luminaire::Kind::environment ? contents.environment : contents.lamps) = true;
+    }
+    layers.push_back({std::move(baked.grid), std::move(contents), baked.priority});
+  }
+  return layers;
 }
 
 Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
@@ -224,8 +275,10 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   for (const Box3f& box : boxes) {
     const Effort effort = effort_of(options, start, !grids.empty());
     LW_TRY(baked, bake_box(world, space, box, options, effort, progress, statistics));
-    baked.priority = static_cast<int>(boxes.size() - 1 - grids.size());
-    grids.push_back(std::move(baked));
+    for (BakedGrid& grid : baked) {
+      grid.priority = static_cast<int>(&boxes.back() - &box);
+      grids.push_back(std::move(grid));
+    }
   }
   statistics.estimated_error = grids.front().estimated_error;
   statistics.seconds = std::chrono::duration<double>(Clock::now() - start).count();

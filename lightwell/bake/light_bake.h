@@ -3,9 +3,11 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "lightwell/bake/adaptive_light.h"
 #include "lightwell/bake/estimator.h"
+#include "lightwell/bake/light_groups.h"
 #include "lightwell/base/progress.h"
 #include "lightwell/light/light_field.h"
 
@@ -16,27 +18,33 @@ struct LightBakeOptions {
   /// quickly, which takes a method that goes node by node.
   int nodes = 0;
   /// Of an adaptive grid: the root mean square error below which it is not divided further, a share of the mean
-  /// irradiance; how long its stream may get, in bytes (the coarsest grid's own bytes are the least); and when it is
-  /// not divided further, in seconds. A draft begins coarser and is tested by fewer rays.
+  /// irradiance; how long its stream may get, in bytes, one for each group (the coarsest grid's own bytes are the
+  /// least); and when it is not divided further, in seconds. A draft begins coarser and is tested by fewer rays.
   float target_error = 0.01f;
   size_t most_bytes = 128 * 1024;
   double seconds = std::numeric_limits<double>::infinity();
   bool draft = false;
   const EstimatorKind* method = &estimators().front();
+  /// Groups of luminaires of which each is to have grids of its own; of one or none all light is in the same ones.
+  std::span<const LightGroup> groups{};
   EstimatorOptions estimator;
 };
 
 /// A grid over a part of a scene.
 struct BakedGrid {
   LightGrid grid;
+  std::string group;  ///< of the luminaires whose light it holds; empty: of all
   /// Where grids overlap, that of the highest priority is looked up.
   int priority = 0;
-  /// Root mean square at test points of surfaces, as a share of the mean irradiance (docs/light.md section 4).
+  /// Of all groups together: root mean square at test points of surfaces, as a share of the mean irradiance
+  /// (docs/light.md section 4).
   float estimated_error = 0;
 };
 
-/// Grids of the same contents as a field.
-LightField field_of(std::vector<BakedGrid> grids, const GridContents& contents);
+/// The grids with what they hold, in the same order: the bounced light of their groups, and the direct light of those
+/// of their luminaires that are `contained`.
+std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids, const LuminaireSet& contained,
+                                         const World& world, std::span<const LightGroup> groups);
 
 struct LightBakeStatistics {
   uint64_t rays = 0;
@@ -49,10 +57,10 @@ struct LightBakeStatistics {
 };
 
 /// Bakes the light of a world: into a grid over its focus, and where that is not all of the world into another one over
-/// all of it, of lower priority. Each bake places the nodes, determines the free space, and lets an estimator fill in
-/// the light. The same world and options give the same grids for any number of threads, unless the seconds end it.
-/// Fails when nothing shines, when the method cannot fill an adaptive grid, when a grid has more nodes than a pack can
-/// hold, or when `progress` is cancelled.
+/// all of it, of lower priority. With groups there is such a grid of each group, all over the same nodes. Each bake
+/// places the nodes, determines the free space, and lets an estimator fill in the light. The same world and options
+/// give the same grids for any number of threads, unless the seconds end it. Fails when nothing shines, when the method
+/// cannot fill an adaptive grid, when a grid has more nodes than a pack can hold, or when `progress` is cancelled.
 Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                                           LightBakeStatistics& statistics);
 

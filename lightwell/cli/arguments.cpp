@@ -50,6 +50,13 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
             "a count, such as 5000, 200k, 8M or 1G")
       ->default_str("8M");
   add_row_choice(command, "--method", options.method, estimators());
+  add_choice<GroupedBy>(command, "--groups", options.groups,
+                        {{"none", GroupedBy::nothing},
+                         {"extras", GroupedBy::extras},
+                         {"collection", GroupedBy::collection},
+                         {"name", GroupedBy::name}},
+                        "Lamps that are switched and dimmed together, with their bounced light: by lightGroup in the "
+                        "extras of their nodes, by the node above them, or by their own names less a number");
   add_environment_option(command, options.environment);
   add_choice<char>(command, "--up", options.import.up, {{"y", 'y'}, {"z", 'z'}}, "The file's axis that points up");
   add_number(command, "--unit", options.import.unit, unit_range, "Length of the file's unit in metres")

@@ -20,8 +20,9 @@ struct SceneOptions {
   std::optional<int> nodes;  ///< of a regular grid; without, the grid is adaptive if the method can fill it
   uint64_t photons = 8'000'000;
   const EstimatorKind* method = &estimators().front();
-  int threads = 0;                    ///< 0: all processors
-  static constexpr int regular = 32;  ///< nodes of a regular grid where nothing is said
+  GroupedBy groups = GroupedBy::nothing;  ///< of light
+  int threads = 0;                        ///< 0: all processors
+  static constexpr int regular = 32;      ///< nodes of a regular grid where nothing is said
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
   LightBakeOptions light(const LuminaireSet& contained) const {
@@ -31,8 +32,8 @@ struct SceneOptions {
   }
 };
 
-/// Adds the scene and --grid, --photons, --method, --environment, --up, --unit, --seed and --threads. `help` says what
-/// the scene may be.
+/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --seed and --threads. `help`
+/// says what the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 
 /// Adds --level, the share of a pack's faces, or --fill, how missing nodes of its light grid are filled.

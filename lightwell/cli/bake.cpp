@@ -37,6 +37,7 @@ struct Bake {
   std::unique_ptr<const World> world;
   Camera camera;  // where a viewer begins
   LampPlan plan;
+  std::vector<LightGroup> groups;
   LightField field;
   PackLight light;
   std::vector<uint8_t> file;
@@ -105,6 +106,7 @@ void close_journal(const Options& options, Bake& bake) {
 
 LightBakeOptions light_options(const Options& options, const Bake& bake) {
   LightBakeOptions light = options.scene.light(bake.plan.contained);
+  light.groups = bake.groups;
   // The stratified slices of S08 are those of a regular grid.
   if (options.order == LightNodeOrder::slices && !options.scene.nodes) light.nodes = SceneOptions::regular;
   if (options.target_error) light.target_error = static_cast<float>(*options.target_error / 100);
@@ -124,6 +126,9 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   warn_of_enclosed_lamps(world, bake.report);
   bake.plan = plan_lamps(world);
   const LuminaireSet& contained = bake.plan.contained;
+  LW_TRY(groups, group_luminaires(world, options.scene.groups));
+  bake.groups = std::move(groups);
+  for (ClientLamp& lamp : bake.plan.client) lamp.group = group_of(lamp.luminaire, world, bake.groups);
   LW_CHECK(open_journal(options, bake));
   const LightBakeOptions light = light_options(options, bake);
   bake.photons = light.estimator.photons;
@@ -132,20 +137,16 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   PackGrid stated;
   stated.order = options.order;
   stated.seed = options.scene.import.seed;
-  const std::vector<Luminaire>& luminaires = world.lights().luminaires();
-  for (size_t i = 0; i < luminaires.size(); i++) {
-    if (!contained.contains(static_cast<int>(i))) continue;
-    (luminaires[i].kind() == Luminaire::Kind::environment ? stated.contains.environment : stated.contains.lamps) = true;
-  }
   LW_TRY(camera, choose_camera(world, ""));
   bake.camera = camera;
   std::vector<float> errors;
   for (const BakedGrid& grid : grids) errors.push_back(grid.estimated_error);
-  bake.field = field_of(std::move(grids), stated.contains);
+  bake.field = LightField(layers_of(std::move(grids), contained, world, bake.groups));
   if (is_dark(bake.field)) bake.report.warn("no light reaches the free space of the scene: its light grid is black");
   for (size_t i = 0; i < errors.size(); i++) {
     const LightField::Layer& layer = bake.field.layers()[i];
     stated.grid = &layer.grid;
+    stated.contains = layer.contents;
     stated.priority = layer.priority;
     stated.estimated_error = errors[i];
     bake.light.grids.push_back(stated);
@@ -239,7 +240,8 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_number(*command, "--target-error", options->target_error, {0, 100},
              "Of --grid auto: the error of the irradiance, root mean square in percent, at which cells are fine enough")
       ->default_str("1");
-  add_count(*command, "--budget", options->budget, "Of --grid auto: bytes that the light may take: 40k, 128k, 1M",
+  add_count(*command, "--budget", options->budget,
+            "Of --grid auto: bytes that the light may take, of each group: 40k, 128k, 1M",
             "a count, such as 40k, 128k or 1M")
       ->default_str("131072");
   add_number(*command, "--stop-after", options->stop_after, {0, 1e9},

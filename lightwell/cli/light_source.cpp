@@ -33,11 +33,14 @@ Result<void> check_environment(const OpenedScene& scene) {
 }
 
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,
-                            const LuminaireSet& contained, Progress& progress, const LightLevel& level) {
+                            const LuminaireSet& contained, std::span<const LightGroup> groups, Progress& progress,
+                            const LightLevel& level) {
   if (scene.pack) return light_of_pack(*scene.pack, level);
   LightBakeStatistics statistics;
-  LW_TRY(grids, bake_light(world, options.light(contained), progress, statistics));
-  return field_of(std::move(grids), {});
+  LightBakeOptions light = options.light(contained);
+  light.groups = groups;
+  LW_TRY(grids, bake_light(world, light, progress, statistics));
+  return LightField(layers_of(std::move(grids), contained, world, groups));
 }
 
 }  // namespace lightwell

@@ -16,8 +16,9 @@ LuminaireSet contained_in_grids(const OpenedScene& scene, const World& world, bo
 Result<void> check_environment(const OpenedScene& scene);
 
 /// The baked light of a scene: the grids of its pack at a level or, without a pack, one grid baked with `options`,
-/// including the direct light of the `contained` luminaires.
+/// including the direct light of the `contained` luminaires, for each of the groups.
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,
-                            const LuminaireSet& contained, Progress& progress, const LightLevel& level = {});
+                            const LuminaireSet& contained, std::span<const LightGroup> groups, Progress& progress,
+                            const LightLevel& level = {});
 
 }  // namespace lightwell

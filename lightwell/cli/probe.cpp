@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lightwell/cli/light_factors.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/cli/probe_points.h"
@@ -11,6 +12,7 @@ struct Options {
   std::string points;
   ProbeOptions probe;
   bool without_environment = false;
+  std::vector<GroupFactor> factors;
 };
 
 Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<ListedPoint>& points, Progress& progress,
@@ -23,13 +25,16 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Li
   IntegratorOptions& light = probe_options.light;
   if (options.without_environment && world->lights().environment_luminaire() >= 0)
     light.left_out.insert(world->lights().environment_luminaire());
+  LW_TRY(groups, groups_of(opened, options.scene, *world));
+  LW_TRY(factors, luminaire_factors(options.factors, groups));
+  light.factors = factors;
   LightField field;
   if (probe_options.integrator->needs_field) {
     LW_CHECK(check_environment(opened));
     const LuminaireSet held = contained_in_grids(opened, *world, !options.without_environment);
     light.held = held;
-    LW_TRY(found, light_of(opened, options.scene, *world, held, progress));
-    field = std::move(found);
+    LW_TRY(found, light_of(opened, options.scene, *world, held, groups, progress));
+    field = dimmed(found, options.factors);
     light.field = &field;
   }
   return probe(*world, counted_from(world->scene().origin, points), probe_options, progress);
@@ -74,6 +79,7 @@ CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& c
   add_whole(*command, "--spp", options->probe.samples, {1, 100000000}, "Paths a point");
   add_whole(*command, "--max-depth", options->probe.light.max_bounces, {0, 1024},
             "Bounces between source and point; 0 is direct light only");
+  add_light_group_option(*command, options->factors);
   add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer("Example:\n  lightwell probe room.glb --points points.csv --integrator ivg > irradiance.csv");
   command->callback([=, &console, &chosen] { chosen = [=, &console] { return probe_scene(*options, console); }; });

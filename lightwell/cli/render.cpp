@@ -2,6 +2,7 @@
 #include "lightwell/render/render.h"
 
 #include "lightwell/base/file.h"
+#include "lightwell/cli/light_factors.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/render/exposure.h"
@@ -21,6 +22,7 @@ struct Options {
   RenderOptions render;
   MeshLevel mesh_level;
   LightLevel light_level;
+  std::vector<GroupFactor> factors;
 };
 
 struct Figures {
@@ -57,23 +59,28 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   const bool needs_field = render_options.integrator->needs_field;
   if (needs_field) LW_CHECK(check_environment(opened));
   const LuminaireSet held = contained_in_grids(opened, *world);
+  LW_TRY(groups, groups_of(opened, options.scene, *world));
+  LW_TRY(factors, luminaire_factors(options.factors, groups));
+  render_options.light.factors = factors;
   LightField field;
   Display display = options.display;
   const bool chooses_exposure = !options.exposure && is_for_the_eye(options.output);
   if (needs_field || chooses_exposure) {
     SceneOptions light = options.scene;
     if (!needs_field) light.photons = std::min(light.photons, exposure_photons);
-    LW_TRY(found, light_of(opened, light, *world, held, progress, options.light_level));
+    LW_TRY(found, light_of(opened, light, *world, held, groups, progress, options.light_level));
     field = std::move(found);
-  }
-  if (needs_field) {
-    render_options.light.field = &field;
-    render_options.light.held = held;
   }
   if (options.exposure)
     display.exposure = *options.exposure;
   else if (chooses_exposure)
     display.exposure = choose_exposure(*world, camera, field, held, options.scene.threads);
+  if (needs_field) {
+    // After the exposure was chosen: what is dimmed is to look darker.
+    field = dimmed(field, options.factors);
+    render_options.light.field = &field;
+    render_options.light.held = held;
+  }
   figures.prepare_seconds = watch.lap();
 
   render_options.seed = options.scene.import.seed;
@@ -143,6 +150,7 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
              "Of a pack: share of the light grid's nodes, 0 to 1")
       ->default_str("1");
   add_fill_option(*command, options->light_level.fill, "How the other nodes are filled");
+  add_light_group_option(*command, options->factors);
   add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer(
       "Examples:\n  lightwell render room.glb --spp 256 -o room.png\n"

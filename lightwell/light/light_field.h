@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "lightwell/light/grid.h"
 
 namespace lightwell {
@@ -10,6 +12,7 @@ struct GridContents {
   bool indirect = true;      ///< after at least one reflection
   bool environment = false;  ///< direct light of the environment
   bool lamps = false;        ///< direct light of the luminaires that no client computes itself
+  std::string group{};       ///< of the luminaires whose light it is; empty: of all
 
   bool operator==(const GridContents&) const = default;
 };

@@ -17,15 +17,17 @@ Json contents_json(const GridContents& contents) {
 }
 
 Json grid_json(const GridDescription& grid) {
-  return {{"stream", grid.stream},
-          {"min", to_json(grid.shape.lo)},
-          {"cell", to_json(grid.shape.cell)},
-          {"nodes", to_json(grid.shape.nodes)},
-          {"codec", grid.codec},
-          {"normalOffset", to_json(grid.normal_offset)},
-          {"estimatedError", to_json(grid.estimated_error)},
-          {"priority", grid.priority},
-          {"contains", contents_json(grid.contains)}};
+  Json json{{"stream", grid.stream},
+            {"min", to_json(grid.shape.lo)},
+            {"cell", to_json(grid.shape.cell)},
+            {"nodes", to_json(grid.shape.nodes)},
+            {"codec", grid.codec},
+            {"normalOffset", to_json(grid.normal_offset)},
+            {"estimatedError", to_json(grid.estimated_error)},
+            {"priority", grid.priority},
+            {"contains", contents_json(grid.contains)}};
+  if (!grid.contains.group.empty()) json["group"] = grid.contains.group;
+  return json;
 }
 
 GridContents read_contents(MemberReader& reader) {
@@ -39,6 +41,7 @@ GridContents read_contents(MemberReader& reader) {
       contents.lamps = true;
     else
       reader.refuse("contains", "names an unknown light");
+  if (reader.has("group")) contents.group = reader.string("group");
   return contents;
 }
 

@@ -38,6 +38,7 @@ bool is_surface(Kind kind) { return kind == Kind::rectangle || kind == Kind::sph
 Json lamp_json(const ClientLamp& lamp) {
   Json json{{"kind", name_of(lamp.kind)}};
   if (!lamp.name.empty()) json["name"] = lamp.name;
+  if (!lamp.group.empty()) json["group"] = lamp.group;
   if (has_center(lamp.kind)) json["center"] = to_json(lamp.center);
   if (has_normal(lamp.kind)) json["normal"] = to_json(lamp.normal);
   if (lamp.kind == Kind::rectangle) {
@@ -71,6 +72,7 @@ Result<ClientLamp> read_lamp(const Json& json, const std::string& name) {
   if (!kind) reader.refuse("kind", "is no kind of lamp");
   lamp.kind = kind.value_or(Kind::point);
   if (reader.has("name")) lamp.name = reader.string("name");
+  if (reader.has("group")) lamp.group = reader.string("group");
   if (has_center(lamp.kind)) lamp.center = reader.vector("center");
   if (has_normal(lamp.kind)) lamp.normal = reader.vector("normal");
   if (lamp.kind == Kind::rectangle) {

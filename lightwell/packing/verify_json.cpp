@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/verify_json.h"
 
+#include <algorithm>
 #include <map>
 
 #include "lightwell/asset/light_asset.h"
@@ -48,7 +49,19 @@ Result<void> verify_plain_form(const OpenedPack& pack) {
   return {};
 }
 
+/// Grids of different groups that are looked up together have the same cells, since clients add them up.
+Result<void> verify_same_cells(const OpenedPack& pack, const GridDescription& a, const GridDescription& b) {
+  if (a.contains.group == b.contains.group || a.priority != b.priority) return {};
+  LW_TRY(one, open_asset_as<LightAsset>(pack.reader(), a.stream));
+  LW_TRY(other, open_asset_as<LightAsset>(pack.reader(), b.stream));
+  if (a.shape == b.shape && a.normal_offset == b.normal_offset && std::ranges::equal(one->bricks(), other->bricks()))
+    return {};
+  return fail(grids_extension, "grids of different groups have different cells");
+}
+
 Result<void> verify_grids(const OpenedPack& pack) {
+  for (size_t i = 1; i < pack.grids().size(); i++)
+    LW_CHECK(verify_same_cells(pack, pack.grids()[i - 1], pack.grids()[i]));
   for (const GridDescription& grid : pack.grids()) {
     LW_TRY(light, open_asset_as<LightAsset>(pack.reader(), grid.stream));
     if (grid.shape != light->shape() || grid.normal_offset != light->normal_offset() ||

@@ -15,7 +15,7 @@ class GridIntegrator : public Integrator {
 
   ReflectedLight sample(const Receiver& receiver, Random& random) const override {
     if (!samples()) return {};
-    DirectAndIndirect light(not_direct_);
+    DirectAndIndirect light(not_direct_, options_.factors);
     const int rays = trace_path(world_, receiver, 0, random, light);
     return {light.direct, rays};
   }

@@ -39,6 +39,8 @@ struct IntegratorOptions {
   LuminaireSet held{};
   /// Luminaires whose direct light is left out. Their bounced light stays.
   LuminaireSet left_out{};
+  /// By which the light of luminaires is multiplied. That of `field` is so already.
+  LuminaireFactors factors{};
 };
 
 /// A row of the table of integrators. A new integrator is a new file and a row.

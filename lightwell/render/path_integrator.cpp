@@ -12,7 +12,7 @@ class PathIntegrator : public Integrator {
   bool samples() const override { return wants_direct(options_.part) || max_bounces_ > 0; }
 
   ReflectedLight sample(const Receiver& receiver, Random& random) const override {
-    DirectAndIndirect light(options_.left_out);
+    DirectAndIndirect light(options_.left_out, options_.factors);
     const int rays = trace_path(world_, receiver, max_bounces_, random, light);
     ReflectedLight reflected{.rays = rays};
     if (wants_direct(options_.part)) reflected.radiance += light.direct;

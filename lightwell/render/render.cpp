@@ -34,18 +34,22 @@ class Renderer {
   }
 
  private:
+  const LuminaireFactors& factors() const { return options_.light.factors; }
+
   Vec3f radiance(const Ray& ray, Random& random, uint64_t& rays) const {
     const TraceScene& surfaces = world_.surfaces();
     const bool total = options_.light.part == LightPart::total;
     Hit hit;
     rays++;
     if (!surfaces.intersect(ray, random, hit))
-      return total ? hit.tint * world_.lights().environment().radiance(ray.direction) : Vec3f{};
+      return total ? hit.tint * factors().of(world_.lights().environment_luminaire()) *
+                         world_.lights().environment().radiance(ray.direction)
+                   : Vec3f{};
     const Surface surface = surfaces.surface(hit);
     const Receiver receiver = Receiver::seen(surfaces, hit, surface, ray.direction);
     // What is unlit shows its colour, as in every viewer, and no light.
     if (surfaces.material(hit.instance).unlit) return total ? hit.tint * surface.bsdf.diffuse : Vec3f{};
-    Vec3f sum = total ? surfaces.emission(hit, surface) : Vec3f{};
+    Vec3f sum = total ? factors().of(world_.lights().luminaire(hit)) * surfaces.emission(hit, surface) : Vec3f{};
     if (integrator_->samples()) {
       const ReflectedLight light = integrator_->sample(receiver, random);
       rays += static_cast<uint64_t>(light.rays);

@@ -15,6 +15,7 @@ struct ClientLamp {
 
   Kind kind = Kind::point;
   std::string name;
+  std::string group;                     ///< that it is switched with; empty: none
   Vec3f center{};                        ///< metres; not for a sun
   Vec3f normal{{0, -1, 0}};              ///< unit: where a rectangle faces, a spot points, a sun's light goes
   Vec3f half_u{}, half_v{};              ///< of a rectangle: from its centre to the middle of two sides, metres

@@ -101,9 +101,10 @@ std::optional<Lamp> take_sun(Environment& environment) {
   return sun;
 }
 
+bool is_sun_of_sky(const Lamp& lamp) { return lamp.kind == Lamp::Kind::sun && lamp.name == sun_name; }
+
 void add_sun(Scene& scene, const Lamp& sun) {
-  const auto is_it = [](const Lamp& lamp) { return lamp.kind == Lamp::Kind::sun && lamp.name == sun_name; };
-  if (std::ranges::any_of(scene.lamps, is_it)) return;
+  if (std::ranges::any_of(scene.lamps, is_sun_of_sky)) return;
   const float strongest = max_component(sun.intensity);
   const Vec3f color = sun.intensity / strongest;
   const int light = add_light(

@@ -15,4 +15,7 @@ std::optional<Lamp> take_sun(Environment& environment);
 /// Gives a scene, and its document, the sun of its sky, unless the document has it already: a pack keeps it.
 void add_sun(Scene& scene, const Lamp& sun);
 
+/// Whether a lamp is one that add_sun() has added, to this scene or to that of which it is the pack.
+bool is_sun_of_sky(const Lamp& lamp);
+
 }  // namespace lightwell

@@ -24,6 +24,13 @@ Lights::Lights(const TraceScene& scene)
   for (const Lamp& lamp : scene.scene().lamps) clearances_.push_back(bulb_radius(scene, lamp));
 }
 
+Lights Lights::only(const LuminaireSet& shining) const {
+  Lights lights = *this;
+  lights.inventory_ = restricted_to(shining, inventory_);
+  lights.choice_ = Distribution(weights_of(lights.inventory_));
+  return lights;
+}
+
 bool Lights::finite() const { return std::isfinite(choice_.total()) && is_finite(power()); }
 
 Vec3f Lights::power() const {

@@ -16,6 +16,9 @@ class Lights {
   /// The scene must outlive the lights.
   explicit Lights(const TraceScene& scene);
 
+  /// The same luminaires, of which only these shine. The others keep their numbers.
+  Lights only(const LuminaireSet& shining) const;
+
   const std::vector<Luminaire>& luminaires() const { return inventory_.luminaires; }
   /// True when there is no light at all.
   bool dark() const { return choice_.total() <= 0; }
@@ -39,7 +42,7 @@ class Lights {
   /// The luminaire that a hit belongs to; -1 when it does not shine.
   int luminaire(const Hit& hit) const;
   const EnvironmentLight& environment() const { return environment_; }
-  /// The environment's number among the luminaires; -1 when it is black.
+  /// The environment's number among the luminaires; -1 when it is black, or does not shine.
   int environment_luminaire() const { return inventory_.environment_luminaire; }
   /// The box in which photons carry all of the light.
   const Box3f& region() const { return region_.box(); }

@@ -52,10 +52,32 @@ class LuminaireSet {
     while (!holds_.empty() && !holds_.back()) holds_.pop_back();
   }
 
+  /// One more than the greatest index in it.
+  int size() const { return static_cast<int>(holds_.size()); }
+
   bool operator==(const LuminaireSet&) const = default;
 
  private:
   std::vector<bool> holds_;  // never ends in false, so that equal sets compare equal
 };
+
+/// By how much the light of each of a world's luminaires is multiplied, for each colour.
+class LuminaireFactors {
+ public:
+  void set(int luminaire, const Vec3f& factor) {
+    const auto index = static_cast<size_t>(luminaire);
+    if (index >= factors_.size()) factors_.resize(index + 1, Vec3f::filled(1));
+    factors_[index] = factor;
+  }
+  /// Of those that were not set, and of none, it is 1.
+  Vec3f of(int luminaire) const {
+    const auto index = static_cast<size_t>(luminaire);
+    return index < factors_.size() ? factors_[index] : Vec3f::filled(1);
+  }
+
+ private:
+  std::vector<Vec3f> factors_;
+};
+inline const LuminaireFactors as_they_are;
 
 }  // namespace lightwell

@@ -119,4 +119,16 @@ LuminaireInventory take_inventory(const TraceScene& scene, const EnvironmentLigh
   return Inventory(scene, environment, region).take();
 }
 
+LuminaireInventory restricted_to(const LuminaireSet& shining, LuminaireInventory inventory) {
+  for (size_t i = 0; i < inventory.luminaires.size(); i++)
+    if (!shining.contains(static_cast<int>(i))) inventory.luminaires[i].power = {};
+  if (!shining.contains(inventory.environment_luminaire) && inventory.environment_luminaire >= 0) {
+    inventory.elements.pop_back();
+    inventory.environment_luminaire = -1;
+  }
+  for (LuminaireInventory::Element& element : inventory.elements)
+    if (!shining.contains(element.luminaire)) element = {.luminaire = -1, .weight = 0};
+  return inventory;
+}
+
 }  // namespace lightwell

@@ -14,8 +14,8 @@ namespace lightwell {
 /// emissive surface, and one for the environment.
 struct LuminaireInventory {
   struct Element {
-    int luminaire = 0;
-    float weight = 0;  ///< sampling weight: about its power, W
+    int luminaire = 0;  ///< -1: of none that shines
+    float weight = 0;   ///< sampling weight: about its power, W
   };
 
   std::vector<Luminaire> luminaires;
@@ -30,5 +30,8 @@ struct LuminaireInventory {
 /// out to be black.
 LuminaireInventory take_inventory(const TraceScene& scene, const EnvironmentLight& environment,
                                   const LightRegion& region);
+
+/// The same inventory, where all but some luminaires are black. Their faces belong to none: -1.
+LuminaireInventory restricted_to(const LuminaireSet& shining, LuminaireInventory inventory);
 
 }  // namespace lightwell

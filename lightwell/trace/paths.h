@@ -27,22 +27,24 @@ class ReceivedLight {
 };
 
 /// Received light in two sums: direct, and after at least one reflection. Direct light of the luminaires `left_out`,
-/// such as those whose light a grid holds, is in neither.
+/// such as those whose light a grid holds, is in neither. The light of each luminaire is multiplied by its factor.
 class DirectAndIndirect : public ReceivedLight {
  public:
-  /// The set must outlive this.
-  explicit DirectAndIndirect(const LuminaireSet& left_out) : left_out_(left_out) {}
+  /// Set and factors must outlive this.
+  explicit DirectAndIndirect(const LuminaireSet& left_out, const LuminaireFactors& factors = as_they_are)
+      : left_out_(left_out), factors_(factors) {}
   void add(int luminaire, int bounces, const Vec3f& light) override {
     if (bounces > 0)
-      indirect += light;
+      indirect += light * factors_.of(luminaire);
     else if (!left_out_.contains(luminaire))
-      direct += light;
+      direct += light * factors_.of(luminaire);
   }
 
   Vec3f direct{}, indirect{};
 
  private:
   const LuminaireSet& left_out_;
+  const LuminaireFactors& factors_;
 };
 
 /// Received light, summed by the luminaire that it comes from.

@@ -16,14 +16,18 @@ class World {
   /// as TraceScene::build does, and when the power of all light is beyond the range of a float.
   static Result<std::unique_ptr<const World>> build(const Scene& scene, int threads = 0);
 
+  /// The same surfaces, lit by only some of the luminaires, which keep their numbers.
+  std::unique_ptr<const World> lit_by(const LuminaireSet& luminaires) const;
+
   const Scene& scene() const { return surfaces_->scene(); }
   const TraceScene& surfaces() const { return *surfaces_; }
   const Lights& lights() const { return lights_; }
 
  private:
-  explicit World(std::unique_ptr<const TraceScene> surfaces) : surfaces_(std::move(surfaces)), lights_(*surfaces_) {}
+  World(std::shared_ptr<const TraceScene> surfaces, const Lights& lights)
+      : surfaces_(std::move(surfaces)), lights_(lights) {}
 
-  std::unique_ptr<const TraceScene> surfaces_;
+  std::shared_ptr<const TraceScene> surfaces_;
   Lights lights_;  // refers to the surfaces
 };
 

@@ -307,5 +307,60 @@ TEST_F(Commands, AnInterruptedBakeLeavesNothing) {
   }
 }
 
+// Two lamps in a closed room: with one of them switched off a pack gives the other's light alone, direct and bounced.
+TEST_F(Commands, GroupsOfLightAreSwitched) {
+  write("lamps.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,
+    "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,0,0],"intensity":100},
+                                                   {"type":"point","color":[0,0,1],"intensity":100}]}},
+    "scenes":[{"nodes":[0,1,2]}],
+    "nodes":[{"mesh":0},
+      {"name":"Red.001","translation":[1,2,1],"extensions":{"KHR_lights_punctual":{"light":0}}},
+      {"name":"Blue.001","translation":[3,2,3],"extensions":{"KHR_lights_punctual":{"light":1}}}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+    "buffers":[{"uri":"room.bin","byteLength":132}],
+    "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[0,0,0],"max":[4,4,4]},
+                 {"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}]})");
+  std::string bin;
+  for (int corner = 0; corner < 8; corner++)
+    for (int axis = 0; axis < 3; axis++) {
+      const float x = corner >> axis & 1 ? 4 : 0;
+      bin.append(reinterpret_cast<const char*>(&x), 4);
+    }
+  for (const char index :
+       {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
+    bin += index;
+  for (size_t i = 96; i < bin.size(); i += 3) std::swap(bin[i], bin[i + 1]);  // seen from inside
+  write("room.bin", bin);
+  write("points.csv", "x,y,z,nx,ny,nz\n2,1,2,0,1,0\n0.5,2,0.5,1,0,0\n");
+  const std::string pack = path("groups.lw.glb"), options = " --photons 50k --grid 6 --quiet";
+  ASSERT_EQ(run("bake " + path("lamps.gltf") + " --groups name -o " + pack + options).status, 0);
+  EXPECT_EQ(run("verify " + pack).status, 0);
+  const auto probed = [&](const std::string& of) {
+    const Outcome found = run("probe " + of + " --json --quiet --points " + path("points.csv"));
+    EXPECT_EQ(found.status, 0) << found.err;
+    std::vector<double> values;
+    const json parsed = json::parse(found.out);
+    for (const json& point : parsed["points"])
+      for (const json& value : point["rgb"]) values.push_back(value);
+    return values;
+  };
+  for (const std::string ivg : {"", " --integrator ivg"}) {
+    const std::vector<double> all = probed(pack + ivg), red = probed(pack + " --light-group Blue=0" + ivg),
+                              halved = probed(pack + " --light-group Blue=0 --light-group Red=0.5,1,1" + ivg);
+    for (size_t i = 0; i < all.size(); i++) {
+      // Rays and nodes are the same ones: no noise.
+      EXPECT_NEAR(red[i], i % 3 == 0 ? all[i] : 0, 1e-5 * all[0]) << ivg;
+      EXPECT_NEAR(halved[i], i % 3 == 0 ? all[i] / 2 : 0, 1e-5 * all[0]) << ivg;
+    }
+    EXPECT_GT(all[2], 0);
+  }
+  EXPECT_EQ(run("probe " + pack + " --points " + path("points.csv") + " --light-group Green=1").err,
+            "lightwell: " + pack + ": --light-group Green: is no group of the scene's light: Red, Blue\n");
+  EXPECT_EQ(run("probe " + path("lamps.gltf") + " --points " + path("points.csv") + " --light-group Red=1").err,
+            "lightwell: " + path("lamps.gltf") +
+                ": --light-group Red: the scene's light has no groups: bake it with --groups\n");
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -186,6 +186,25 @@ TEST(MakePack, HoldsAListOfGrids) {
   }
 }
 
+// Clients add the grids of groups up, so that all have the same cells.
+TEST(MakePack, GridsOfGroupsHaveTheSameCells) {
+  Report report;
+  const Scene scene = scene_from_document(sheet_document(), "test", report).value();
+  const LightGrid red = some_light(scene.bounds());
+  for (const bool alike : {true, false}) {
+    LightGrid blue = red;
+    if (!alike) blue.normal_offset /= 2;
+    PackLight light;
+    light.grids = {{.grid = &red, .contains = {.group = "red"}}, {.grid = &blue, .contains = {.group = "blue"}}};
+    Progress progress;
+    PackStatistics statistics;
+    const std::vector<uint8_t> file = make_pack(scene, light, {}, progress, report, statistics).value();
+    const OpenedPack opened = open(file);
+    EXPECT_EQ(opened.grids()[1].contains.group, "blue");
+    EXPECT_EQ(verify_pack(opened).errors.empty(), alike);
+  }
+}
+
 TEST(MakePack, KeepsNamesExtrasAndCameras) {
   Document document = room();
   document.json["extras"] = {{"museum", "of things"}};

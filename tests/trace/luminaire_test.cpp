@@ -119,5 +119,33 @@ TEST(ReceivedLight, ByLuminaireAddsUpToTheWhole) {
   }
 }
 
+// The others keep their numbers, send no photons and no samples, and are not met.
+TEST(Luminaires, ShineAloneInAWorldLitByThem) {
+  const Scene scene = scene_of_lamps();
+  const auto world = world_of(scene);
+  const Lights& all = world->lights();
+  for (int only = 0; only < 11; only++) {
+    LuminaireSet set;
+    set.insert(only);
+    const auto lit = world->lit_by(set);
+    const Lights& lights = lit->lights();
+    ASSERT_EQ(lights.luminaires().size(), 11u);
+    EXPECT_EQ(lights.power(), all.luminaires()[static_cast<size_t>(only)].power);
+    EXPECT_EQ(lights.environment_luminaire(), only == 10 ? 10 : -1);
+    Random random(5, static_cast<uint64_t>(only));
+    for (int i = 0; i < 50; i++) {
+      EXPECT_EQ(lights.emit(random).luminaire, only);
+      EXPECT_EQ(lights.sample({{0.5f, 1, 0.5f}}, random).luminaire, only);
+      const Ray ray{.origin = {{0, 1, 0}}, .direction = sample_sphere(random)};
+      Hit hit;
+      if (!world->surfaces().intersect(ray, random, hit)) continue;
+      const int met = all.luminaire(hit);
+      EXPECT_EQ(lights.luminaire(hit), met == only ? only : -1);
+      EXPECT_EQ(lights.density(ray.origin, hit) > 0, met == only && all.density(ray.origin, hit) > 0);
+    }
+  }
+  EXPECT_TRUE(world->lit_by({})->lights().dark());
+}
+
 }  // namespace
 }  // namespace lightwell

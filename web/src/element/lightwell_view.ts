@@ -52,6 +52,8 @@ export class LightwellView extends Base implements ContextHolder {
   /** Of the pack that is loading or shown; null when none is. */
   #loader: LightwellLoader | null = null;
   #replacedPause = REPLACED_PAUSE;
+  /** Of light groups. */
+  readonly #factors = new Map<string, number | [number, number, number]>();
   #near = false;
   #paused = false;
   #complete = false;
@@ -109,6 +111,12 @@ export class LightwellView extends Base implements ContextHolder {
     const camera = cameraNamed(this.#pack, name);
     this.#stage?.takeFieldOfView(camera);
     this.#orbit?.lookThrough(camera, this.#pack!);
+  }
+
+  /** Dims, colours or switches a group of the pack's lamps with all of its light: LightwellScene.setLightGroup. Stays when `src` changes. */
+  setLightGroup(name: string, factor: number | [number, number, number]): void {
+    this.#pack?.setLightGroup(name, factor);
+    this.#factors.set(name, factor);
   }
 
   /** Draws a frame now, in the caller's turn. */
@@ -278,6 +286,7 @@ export class LightwellView extends Base implements ContextHolder {
     pack.addEventListener('complete', () => stage.finish(() => pack === this.#pack && this.#onComplete()));
     stage.scene.add(pack);
     this.#pauseOrResume();
+    for (const [name, factor] of this.#factors) if (pack.lightGroups.includes(name)) pack.setLightGroup(name, factor);
     for (const name of ['field-of-view', 'exposure', 'light', 'wireframe']) this.#apply(name);
     this.#frame(pack);
     stage.invalidateShadows();

@@ -2,6 +2,7 @@
 import type { LightwellView } from '../element/lightwell_view.js';
 import html from './settings.html';
 import { bindCameras } from './cameras.js';
+import { bindLightGroups } from './light_groups.js';
 import { bindSharing } from './sharing.js';
 
 const HOW_TO_WALK = 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.';
@@ -18,6 +19,7 @@ export function bindSettings(view: LightwellView): void {
   bindLight(view);
   bindExposure(view);
   bindWalk(view);
+  bindLightGroups(view);
   bindCameras(view);
   bindSharing(view);
   const wireframe = document.querySelector<HTMLInputElement>('#wireframe')!;

@@ -46,9 +46,13 @@ export interface LightGridDefinition {
   priority?: number;
   /** The light that the grid holds besides what bounced: 'environment' or lamps. */
   contains?: string[];
+  /** Of the lamps whose light it holds. Absent: of all. */
+  group?: string;
 }
 
 export interface LampDefinition {
+  /** That it is switched and dimmed with. */
+  group?: string;
   kind: 'rectangle' | 'sphere' | 'point' | 'spot' | 'sun';
   center?: Triple;
   /** Where it shines. */

@@ -35,10 +35,10 @@ export function createLamps(definitions: LampDefinition[], bounds: Box3, materia
   installLightChunks();
   const shadows = Math.max(0, Math.min(MOST_SHADOWS, TEXTURE_UNITS - SHARED_UNITS - materialMaps));
   const sphere = bounds.getBoundingSphere(new Sphere());
-  const lamps = definitions.flatMap(sides).map((definition) => ({ light: createLamp(definition, sphere), power: irradianceAt(definition, sphere) }));
+  const lamps = definitions.flatMap(sides).map((definition) => ({ light: createLamp(definition, sphere), group: definition.group, power: irradianceAt(definition, sphere) }));
   lamps.sort((a, b) => b.power - a.power);
   lamps.slice(0, shadows).forEach(({ light }) => castShadow(light, sphere));
-  return lamps.map(({ light }) => light);
+  return lamps.map(({ light, group }) => Object.assign(light, { userData: { group } }));
 }
 
 /** A lamp that shines to both sides is two. */

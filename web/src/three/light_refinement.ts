@@ -22,8 +22,8 @@ export class LightRefinement implements Refinement {
   #waiting: Data3DTexture | null = null;
   #consumed = 0;
 
-  /** `light` has the state of the first frame, in a size that `checkSize` lets pass. */
-  constructor(light: LightwellLight, renderer: WebGLRenderer) {
+  /** `light` has the state of the first frame, in a size that `checkSize` lets pass. `received`: its states came as they are. */
+  constructor(light: LightwellLight, renderer: WebGLRenderer, private readonly received = true) {
     this.#light = light;
     this.#renderer = renderer;
     this.#hidden = atlasTexture(atlasOf(light.texture), light.definition);
@@ -62,7 +62,7 @@ export class LightRefinement implements Refinement {
   takeConsumed(): number {
     const bytes = this.#consumed;
     this.#consumed = 0;
-    return bytes;
+    return this.received ? bytes : 0;
   }
 
   restart(): void {

@@ -30,6 +30,7 @@ import { assetOf } from './extensions.js';
 import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
 import { HandOver } from './hand_over.js';
 import { LightwellLight } from './light.js';
+import type { LightGroups } from './light_groups.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp, scaleLamps } from './lamps.js';
 import { MeshRefinement } from './mesh_refinement.js';
@@ -85,6 +86,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #meshes = new Map<number, MeshRefinement>();
   readonly #images: Map<number, TextureRefinement>;
   readonly #lights = new Map<number, LightRefinement>();
+  readonly #groups: LightGroups | null;
   readonly #handOver: HandOver;
   readonly #uploads: FrameTask;
   #received = false;
@@ -96,11 +98,13 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     opening: Opening,
     images: Map<number, TextureRefinement>,
     grids: LightwellLight[],
+    groups: LightGroups | null,
     connection: PackConnection,
     renderer: WebGLRenderer,
     options: SceneOptions,
   ) {
     super();
+    this.#groups = groups;
     this.opening = opening;
     this.#images = images;
     this.#connection = connection;
@@ -116,7 +120,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.focus = focusOf(opening, this.bounds);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
     this.grids = grids;
-    for (const grid of grids) this.#lights.set(assetOf(grid.definition), new LightRefinement(grid, renderer));
+    for (const grid of grids) this.#lights.set(assetOf(grid.definition), new LightRefinement(grid, renderer, groups === null));
     this.lamps = this.#createLamps();
     this.add(...grids, ...this.lamps);
   }
@@ -133,12 +137,15 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     options: SceneOptions,
   ) {
     const definitions = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
-    const grids = definitions.map((grid, i) => new LightwellLight(grid, lights[i]!));
+    const grouped = definitions.some(({ group }) => group !== undefined);
+    const groups = grouped ? new (await import('./light_groups.js')).LightGroups(definitions, lights) : null;
+    const states = groups?.states() ?? lights;
+    const grids = (groups?.definitions ?? definitions).map((grid, i) => new LightwellLight(grid, states[i]!));
     for (const { texture } of grids) checkSize(texture, renderer);
     const images = new Map<number, TextureRefinement>();
     for (const [asset, { extension, textures }] of opening.images)
       images.set(asset, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
-    return new LightwellScene(opening, images, grids, connection, renderer, options);
+    return new LightwellScene(opening, images, grids, groups, connection, renderer, options);
   }
 
   setStrategy(strategy: Strategy): void {
@@ -155,6 +162,21 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#changed();
   }
 
+  /** The groups of the pack's lamps: see `setLightGroup`. */
+  get lightGroups(): string[] {
+    return this.#groups?.names ?? [];
+  }
+
+  /** Multiplies all light of a group of lamps, bounced or not, for each colour; 0 switches it off. Throws when there is none of the name. */
+  setLightGroup(name: string, factor: number | [number, number, number]): void {
+    const groups = this.#groups;
+    if (groups === null) throw new Error('the light of this pack has no groups');
+    groups.set(name, factor, this.lamps, this.opening);
+    for (const state of groups.states()) this.#lights.get(state.asset)!.receive(state);
+    this.#uploads.request();
+    this.#changed();
+  }
+
   /** Asks for no more until `resume`. */
   pause(): void {
     this.#connection.pause();
@@ -166,7 +188,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   /** Lets what matters most to this camera's picture come first. Call it when the view has changed much, not each frame. */
   setView(camera: Camera, heightInPixels: number): void {
-    this.#connection.setWeights(viewWeights(this.opening, this.grids, camera, heightInPixels));
+    const weights = viewWeights(this.opening, this.grids, camera, heightInPixels);
+    this.#connection.setWeights(this.#groups?.weigh(weights) ?? weights);
   }
 
   override updateMatrixWorld(force?: boolean): void {
@@ -235,10 +258,18 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       case 'draw':
         return this.#refineBy(event, this.#meshes.get(event.asset));
       case 'light':
-        return this.#refineBy(event, this.#lights.get(event.asset));
+        return this.#refineLight(event);
       case 'texture':
         return this.#refineBy(event, this.#images.get(event.asset));
     }
+  }
+
+  /** What groups send is added up at once; the sum costs the sender nothing. */
+  #refineLight(event: LightEvent): void {
+    if (this.#groups === null) return this.#refineBy(event, this.#lights.get(event.asset));
+    this.#connection.consumed(event.atlas.byteLength);
+    const sum = this.#groups.receive(event);
+    this.#refineBy(sum, this.#lights.get(sum.asset));
   }
 
   #fail(error: unknown): void {

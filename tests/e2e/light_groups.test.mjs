@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Groups of lamps, switched, dimmed and coloured with their bounced light: a red, a blue and a green one in a grey room.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
+import { bake, temporaryFolder } from './packs.mjs';
+import { room, sphere, writeScene } from './scenes.mjs';
+import { startStaticServer } from './static_server.mjs';
+import { viewerPage } from './test_page.mjs';
+import { complete } from './view.mjs';
+
+const GREY = { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.5, 0.5, 0.5, 1] }, extensions: { KHR_materials_specular: { specularFactor: 0 } } };
+const STRONG = { KHR_materials_emissive_strength: { emissiveStrength: 8 } };
+const GLOBE = { ...GREY, emissiveFactor: [0, 1, 0], extensions: { ...GREY.extensions, ...STRONG } };
+/** The channel that each group has alone. */
+const CHANNELS = { Red: 0, Blue: 2, Globe: 1 };
+/** Two roundings to 8 bits, each at most half a step of sRGB, which is 0.0045 of white where its curve is steepest, and half floats. */
+const ROUNDING = 0.012;
+
+const CLIPPED = 0.95;
+
+const folder = temporaryFolder();
+const browser = await forAllTests(launch());
+
+function packOf(kind, options) {
+  const shapes = [{ mesh: room(1), material: GREY }, { mesh: sphere(0.1), material: GLOBE, at: [0, -0.5, -0.5] }];
+  const lamp = (color) => ({ type: 'point', intensity: 1, color });
+  const lamps = [{ lamp: lamp([1, 0, 0]), at: [-0.7, 0.5, 0] }, { lamp: lamp([0, 0, 1]), at: [0.7, 0.5, 0] }];
+  const file = writeScene(`${folder}/${kind}.gltf`, shapes, lamps);
+  const gltf = JSON.parse(readFileSync(file, 'utf8'));
+  ['Room', 'Globe', 'Red.001', 'Blue.001'].forEach((name, i) => (gltf.nodes[i].name = name));
+  writeFileSync(file, JSON.stringify(gltf));
+  return bake(file, `${folder}/${kind}.lw.glb`, { groups: 'name', ...options });
+}
+
+const PACKS = { regular: packOf('regular', {}), refined: packOf('refined', { grid: 'auto', budget: '9k' }) };
+
+async function open(t, kind) {
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/room.lw.glb'), '/room.lw.glb': PACKS[kind] }));
+  const opened = await forTest(t, openPage(browser, { width: 160, height: 120 }));
+  await opened.page.goto(server.url);
+  await complete(opened.page);
+  await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('tone', 'none'));
+  await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('exposure', '0'));
+  return opened;
+}
+
+/** The picture with some factors, once the grid has them, as light of each pixel's channels. */
+const pictureWith = (page, factors, light = 'all') =>
+  page
+    .evaluate(
+      async ([of, part]) => {
+        const view = document.querySelector('lightwell-view');
+        view.setAttribute('light', part);
+        const { texture } = view.pack.grids[0];
+        for (const [name, factor] of Object.entries(of)) view.setLightGroup(name, factor);
+        while (view.pack.grids[0].texture === texture) await new Promise(requestAnimationFrame);
+        // The last of the states that were asked for.
+        for (let i = 0; i < 30; i++) await new Promise(requestAnimationFrame);
+        view.draw();
+        const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
+        const pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+        gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return [...pixels];
+      },
+      [factors, light],
+    )
+    .then((bytes) => bytes.map((byte) => (byte <= 10 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4)));
+
+/** Checks each pixel's channels against what they should be by those of all light; clipped ones say nothing. */
+function compare(picture, all, factors, what) {
+  picture.forEach((value, i) => {
+    if (i % 4 === 3 || all[i] > CLIPPED) return;
+    const wanted = factors[i % 4] * all[i];
+    assert.ok(Math.abs(value - wanted) < ROUNDING, `${what}, byte ${i}: ${value}, not ${wanted}`);
+  });
+}
+
+for (const kind of Object.keys(PACKS))
+  test(`groups are switched, dimmed and coloured with their bounced light, in a ${kind} grid`, async (t) => {
+    const { page, errors } = await open(t, kind);
+    assert.deepEqual(await page.evaluate(() => document.querySelector('lightwell-view').pack.lightGroups.sort()), ['Blue', 'Globe', 'Red']);
+    const none = { Red: 0, Blue: 0, Globe: 0 };
+    for (const part of ['all', 'indirect']) {
+      const all = await pictureWith(page, { Red: 1, Blue: 1, Globe: 1 }, part);
+      for (const [name, channel] of Object.entries(CHANNELS)) {
+        const alone = await pictureWith(page, { ...none, [name]: 1 }, part);
+        compare(alone, all, [0, 1, 2].map((c) => Number(c === channel)), `${part} of ${name} alone`);
+        assert.ok(alone.filter((value, i) => i % 4 === channel && value > 0.02).length > 300, `${name} shines`);
+      }
+      const changed = await pictureWith(page, { Red: 0.5, Blue: [0, 0, 0.25], Globe: 0 }, part);
+      compare(changed, all, [0.5, 0, 0.25], `${part} dimmed and coloured`);
+      compare(await pictureWith(page, none, part), all, [0, 0, 0], `${part} switched off`);
+    }
+    const said = await page.evaluate(() => {
+      try {
+        document.querySelector('lightwell-view').setLightGroup('Green', 1);
+      } catch ({ message }) {
+        return message;
+      }
+    });
+    assert.match(said, /no light group "Green": there are /);
+    assert.deepEqual(errors, []);
+  });
+
+test('the settings have a slider for each group', async (t) => {
+  const { page } = await open(t, 'refined');
+  await page.evaluate(() => (document.querySelector('#panel').open = true));
+  await page.getByText('Settings').click();
+  const slider = page.getByLabel('Blue');
+  await slider.waitFor();
+  await slider.fill('0');
+  const blue = await page.evaluate(() => {
+    const { lamps } = document.querySelector('lightwell-view').pack;
+    return lamps.filter(({ color }) => color.b > 0).length;
+  });
+  assert.equal(blue, 0);
+});
