@@ -139,3 +139,24 @@ test('the page fills the screen and leaves it', async (t) => {
   await page.waitForFunction(() => document.fullscreenElement === null);
   assert.deepEqual(errors, []);
 });
+
+test('the cells and nodes of the light can be seen, and are gone again', async (t) => {
+  const { page, errors } = await openViewer(t, WIDE);
+  await complete(page);
+  await openSettings(page);
+  const shown = () =>
+    page.evaluate(() => {
+      const { pack } = document.querySelector('lightwell-view');
+      return pack.children.filter(({ isMesh }) => isMesh).map(({ geometry }) => geometry.attributes.position.count);
+    });
+  await page.getByLabel('Cells of light').check();
+  assert.deepEqual(await shown(), [8], 'a regular grid is one box');
+  await page.getByLabel('Nodes of light').check();
+  const nodes = await page.evaluate(() => document.querySelector('lightwell-view').progress.nodes.total);
+  const [, ...stones] = await shown();
+  assert.equal(stones.reduce((sum, count) => sum + count, 0), 6 * nodes, 'an octahedron for each node');
+  await page.getByLabel('Cells of light').uncheck();
+  await page.getByLabel('Nodes of light').uncheck();
+  assert.deepEqual(await shown(), []);
+  assert.deepEqual(errors, []);
+});

@@ -3,21 +3,18 @@ import type { LightwellView } from '../element/lightwell_view.js';
 
 /** A slider for each group of the pack's lamps, from dark to twice as bright. */
 export function bindLightGroups(view: LightwellView): void {
-  const all = document.querySelector<HTMLFieldSetElement>('#groups')!;
-  const show = () => {
-    const groups = view.pack?.lightGroups ?? [];
-    all.hidden = groups.length === 0;
-    all.replaceChildren(all.firstElementChild!, ...groups.map((name) => slider(view, name)));
-  };
+  const all = document.querySelector('#groups')!;
+  const show = () => all.replaceChildren(...(view.pack?.lightGroups ?? []).map((name) => slider(view, name)));
   view.on('load', show);
   show();
 }
 
 function slider(view: LightwellView, name: string): HTMLElement {
-  const label = Object.assign(document.createElement('label'), { className: 'slider', textContent: name });
+  const label = Object.assign(document.createElement('label'), { className: 'slider', title: name });
+  label.append(Object.assign(document.createElement('span'), { textContent: name }));
   const input = Object.assign(document.createElement('input'), { type: 'range', min: '0', max: '2', step: '0.05', value: '1' });
   const output = document.createElement('output');
-  const apply = () => (output.value = `${Math.round(100 * Number(input.value))} %`);
+  const apply = () => (output.value = `${Math.round(100 * Number(input.value))}%`);
   apply();
   input.addEventListener('input', () => {
     apply();

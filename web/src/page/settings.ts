@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { Material, Mesh } from 'three';
 import type { LightwellView } from '../element/lightwell_view.js';
+import type { LightwellScene } from '../three/scene.js';
 import html from './settings.html';
 import { bindCameras } from './cameras.js';
+import { brickEdges, gridNodes, type Three } from './light_cells.js';
 import { bindLightGroups } from './light_groups.js';
 import { bindSharing } from './sharing.js';
 
@@ -13,12 +16,14 @@ const LEEWAY = 4;
  * Puts the controls into the panel; most set an attribute of the element. The page fetches this script when the settings are unfolded: it
  * imports nothing that the page has (docs/decisions/008-size-of-the-page.md).
  */
-export function bindSettings(view: LightwellView): void {
+export function bindSettings(view: LightwellView, three: Three): void {
   document.querySelector('#settings')!.insertAdjacentHTML('beforeend', html);
   bindStrategy(view);
   bindLight(view);
   bindExposure(view);
   bindWalk(view);
+  bindCells(view, '#light-cells', (pack) => brickEdges(pack, three));
+  bindCells(view, '#light-nodes', (pack) => gridNodes(pack, three));
   bindLightGroups(view);
   bindCameras(view);
   bindSharing(view);
@@ -40,6 +45,25 @@ function bindLight(view: LightwellView): void {
   };
   direct.addEventListener('change', apply);
   indirect.addEventListener('change', apply);
+}
+
+/** A box that shows something of the pack's grids, as far as they have come. */
+function bindCells(view: LightwellView, id: string, meshesOf: (pack: LightwellScene) => Mesh[]): void {
+  const box = document.querySelector<HTMLInputElement>(id)!;
+  let shown: Mesh[] = [];
+  const apply = () => {
+    for (const mesh of shown) {
+      mesh.removeFromParent();
+      mesh.geometry.dispose();
+      (mesh.material as Material).dispose();
+    }
+    shown = box.checked && view.pack !== null ? meshesOf(view.pack) : [];
+    if (shown.length > 0) view.pack!.add(...shown);
+    view.invalidate();
+  };
+  box.addEventListener('change', apply);
+  view.on('load', apply);
+  view.on('complete', apply);
 }
 
 function bindWalk(view: LightwellView): void {
