@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "lightwell/bake/sky_dome.h"
 #include "lightwell/bake/turned.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/render/overview.h"
@@ -13,13 +14,11 @@
 namespace lightwell {
 namespace {
 
-Result<OpenedScene> open_pack(const std::string& path, bool has_environment, const MeshLevel& level, Report& report) {
+Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, Report& report) {
   LW_TRY(pack, OpenedPack::open_file(path));
   LW_TRY(document, unpack_document(pack, level, report));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report,
                                     pack.identity().origin));
-  if (contents_of(pack.grids()).environment && !has_environment && EnvironmentLight(scene.environment).black())
-    report.warn("environment: the pack has its light but not its picture: give it with --environment");
   return OpenedScene{std::move(scene), std::move(pack)};
 }
 
@@ -56,8 +55,7 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   const std::string& path = options.path;
   const bool pack = is_pack_file(path);
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
-  auto opened =
-      pack ? open_pack(path, !options.environment.empty(), level, report) : open_other(path, options.import, report);
+  auto opened = pack ? open_pack(path, level, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
   if (!options.environment.empty()) {
     LW_TRY(surroundings, read_environment(options.environment));
@@ -65,6 +63,9 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
     if (const auto sun = take_sun(surroundings)) add_sun(opened->scene, *sun);
     opened->scene.environment = std::move(surroundings);
   }
+  LW_CHECK(take_sky_dome(opened->scene, report));
+  if (pack && contents_of(opened->pack->grids()).environment && EnvironmentLight(opened->scene.environment).black())
+    report.warn("environment: the pack has its light but not its picture: give it with --environment");
   return opened;
 }
 
