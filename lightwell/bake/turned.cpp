@@ -6,6 +6,7 @@
 #include <set>
 
 #include "lightwell/bake/mesh_name.h"
+#include "lightwell/bake/mixed_winding.h"
 #include "lightwell/bake/surface_pieces.h"
 #include "lightwell/base/parallel.h"
 #include "lightwell/trace/photons.h"
@@ -62,8 +63,8 @@ bool has_one_side(const TraceScene& scene, uint32_t instance) {
   return !material.double_sided && max_component(material.emission) <= 0 && material.transmission <= 0;
 }
 
-/// The instances with one side whose backs photons meet at all often. Few scenes have any, and the others need not be
-/// taken to pieces.
+/// The instances whose backs photons meet at all often. Few scenes have any, and the others need not be taken to
+/// pieces.
 std::vector<uint8_t> instances_met_from_behind(const World& world, int threads, Progress& progress) {
   std::vector<std::atomic<uint32_t>> backs(world.scene().instances.size());
   parallel_for(
@@ -77,7 +78,7 @@ std::vector<uint8_t> instances_met_from_behind(const World& world, int threads, 
       },
       [&] { return progress.cancelled(); });
   std::vector<uint8_t> met(backs.size());
-  for (uint32_t i = 0; i < met.size(); i++) met[i] = backs[i] >= least_hits && has_one_side(world.surfaces(), i);
+  for (uint32_t i = 0; i < met.size(); i++) met[i] = backs[i] >= least_hits;
   return met;
 }
 
@@ -113,6 +114,17 @@ std::vector<Sides> look_at_sides(const World& world, const SurfacePieces& pieces
   return std::move(seen[0]);
 }
 
+std::string list_of(const std::set<std::string>& names) {
+  constexpr size_t most_named = 5;
+  std::string list;
+  size_t named = 0;
+  for (const std::string& name : names) {
+    if (named == most_named) return list + " and " + std::to_string(names.size() - named) + " more";
+    list += (named++ > 0 ? ", " : "") + name;
+  }
+  return list;
+}
+
 /// Turns a scene's pieces to where the light is.
 class Turner {
  public:
@@ -136,9 +148,9 @@ class Turner {
 
   void tell(Report& report) const {
     if (!turned_.empty())
-      report.warn(names(turned_) + ": faces look away from the light on all sides; they are turned round");
+      report.warn(list_of(turned_) + ": faces look away from the light on all sides; they are turned round");
     if (!two_sided_.empty())
-      report.warn(names(two_sided_) + ": faces look outwards, but there is light inside; both sides are shown");
+      report.warn(list_of(two_sided_) + ": faces look outwards, but there is light inside; both sides are shown");
   }
 
  private:
@@ -182,17 +194,6 @@ class Turner {
 
   std::string name_of(const Primitive& primitive) const { return mesh_name(scene_, primitive); }
 
-  static std::string names(const std::set<std::string>& all) {
-    constexpr size_t most_named = 5;
-    std::string list;
-    size_t named = 0;
-    for (const std::string& name : all) {
-      if (named == most_named) return list + " and " + std::to_string(all.size() - named) + " more";
-      list += (named++ > 0 ? ", " : "") + name;
-    }
-    return list;
-  }
-
   Scene& scene_;
   const SurfacePieces& pieces_;
   const std::vector<Sides>& sides_;
@@ -204,8 +205,17 @@ class Turner {
 Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int threads, Progress& progress, Report& report) {
   LW_TRY(world, World::build(scene, threads));
   if (world->lights().dark()) return std::move(world);
-  const std::vector<uint8_t> met = instances_met_from_behind(*world, threads, progress);
-  const SurfacePieces pieces(world->surfaces(), [&](uint32_t instance) { return met[instance] != 0; });
+  std::vector<uint8_t> met = instances_met_from_behind(*world, threads, progress);
+  LW_TRY(mixed, unify_winding(scene, *world, met, threads, progress));
+  if (!mixed.empty()) {
+    report.warn(list_of(mixed) + ": some faces are wound against those beside them; they are turned round");
+    LW_TRY(unified, World::build(scene, threads));
+    world = std::move(unified);
+    met = instances_met_from_behind(*world, threads, progress);
+  }
+  const SurfacePieces pieces(world->surfaces(), [&](uint32_t instance) {
+    return met[instance] != 0 && has_one_side(world->surfaces(), instance);
+  });
   if (pieces.count() == 0 && !progress.cancelled()) return std::move(world);
   const std::vector<Sides> sides = look_at_sides(*world, pieces, threads, progress);
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");

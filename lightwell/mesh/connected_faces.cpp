@@ -7,8 +7,15 @@
 namespace lightwell {
 namespace {
 
-/// For each vertex, a representative of all vertices at the same position.
-std::vector<uint32_t> welded(const std::vector<Vec3f>& positions) {
+/// The piece that a vertex belongs to (union-find with path halving).
+uint32_t root(std::vector<uint32_t>& parent, uint32_t vertex) {
+  while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+  return vertex;
+}
+
+}  // namespace
+
+std::vector<uint32_t> welded_vertices(const std::vector<Vec3f>& positions) {
   std::vector<uint32_t> order(positions.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return positions[a] < positions[b]; });
@@ -20,16 +27,8 @@ std::vector<uint32_t> welded(const std::vector<Vec3f>& positions) {
   return first;
 }
 
-/// The piece that a vertex belongs to (union-find with path halving).
-uint32_t root(std::vector<uint32_t>& parent, uint32_t vertex) {
-  while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
-  return vertex;
-}
-
-}  // namespace
-
 std::vector<uint32_t> connected_faces(const Mesh& mesh) {
-  std::vector<uint32_t> parent = welded(mesh.positions);
+  std::vector<uint32_t> parent = welded_vertices(mesh.positions);
   for (const Face& face : mesh.faces) {
     const uint32_t a = root(parent, face[0]);
     parent[root(parent, face[1])] = a;

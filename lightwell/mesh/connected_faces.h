@@ -5,6 +5,9 @@
 
 namespace lightwell {
 
+/// For each vertex, one that stands for all vertices at the same position.
+std::vector<uint32_t> welded_vertices(const std::vector<Vec3f>& positions);
+
 /// For each face, the number of its connected piece of surface; pieces are counted from 0 in the order of their first
 /// faces. Faces are connected by corners at the same position.
 std::vector<uint32_t> connected_faces(const Mesh& mesh);

@@ -103,5 +103,38 @@ TEST(Turned, ShellLitFromBothSidesGetsTwo) {
   EXPECT_FALSE(scene.material_of(scene.primitives[1]).double_sided);
 }
 
+/// Turns every face with a probability.
+void mix(Mesh& mesh, float share, uint64_t seed) {
+  Random random(seed, 0);
+  for (Face& face : mesh.faces)
+    if (random.uniform() < share) std::swap(face[1], face[2]);
+}
+
+// A ball, and the room round it, of mixed winding: with one side or two, in a closed room or under a sky.
+TEST(Turned, AreFacesWoundAgainstTheRest) {
+  for (const bool double_sided : {false, true})
+    for (const bool sky : {false, true}) {
+      const Mesh ball = turned(sphere(0.8f, 3));
+      Scene scene = scene_of(ball, lambertian(0.6f));
+      for (Vec3f& position : scene.primitives[0].mesh.positions) position[1] += 1.2f;
+      scene.materials[0].double_sided = double_sided;
+      mix(scene.primitives[0].mesh, 0.3f, 11);
+      if (sky) {
+        scene.environment.radiance = Vec3f::filled(1);
+        add(scene, quad({{-4, 0, -4}}, {{0, 0, 8}}, {{8, 0, 0}}), lambertian(0.5f));
+      } else {
+        add(scene, room(lo, hi), lambertian(0.7f));
+        mix(scene.primitives[1].mesh, 0.3f, 5);
+        add(scene, lamp(), lambertian(0, 10));
+      }
+      const Ready made = ready(scene);
+      EXPECT_EQ(scene.primitives[0].mesh.faces, ball.faces) << double_sided << sky;
+      EXPECT_TRUE(sky || scene.primitives[1].mesh.faces == room(lo, hi).faces) << double_sided;
+      ASSERT_EQ(made.warnings.size(), 1u);
+      EXPECT_NE(made.warnings[0].find("wound against those beside them"), std::string::npos);
+      EXPECT_TRUE(ready(scene).warnings.empty());
+    }
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lightwell/mesh/mesh.h"
+
+namespace lightwell {
+
+/// For each face 1 if it is wound against the greater part, by area, of the surface to which it belongs, else 0. Faces
+/// belong together across edges that two of them share, by the positions of its ends; wound alike, they run along it in
+/// opposite directions. A surface that cannot be wound alike everywhere, as a Moebius strip, has none.
+std::vector<uint8_t> wound_against_the_rest(const Mesh& mesh);
+
+}  // namespace lightwell
