@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace truth estimators real mesh light fetch server sizes frame growth direct)
+parts=(bake trace speed truth estimators real curve mesh light fetch server sizes frame growth direct)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -33,6 +33,34 @@ bench_bake() {
 }
 
 bench_trace() { show "$programs/trace_bench"; }
+
+# A default bake with more options: processor seconds of all, seconds of the light without Embree's tree, the stated error, memory.
+speed_row() { # NAME SCENE [options]
+  local name=$1 scene=$2 processor
+  shift 2
+  processor=$({ TIMEFORMAT=%U; time "$lightwell" bake "$scene" -o "$out/speed.lw.glb" --quiet --json "$@" >"$out/speed.json"; } 2>&1)
+  python3 -c 'import json, sys
+r = json.load(open(sys.argv[3]))
+print("| %s | %s | %.1f | %.1f | %.0f |" % (sys.argv[1], sys.argv[2], r["seconds"]["light"], 100 * r["estimated_error"], r["peak_memory"] / 1e6))' "$name" "$processor" "$out/speed.json"
+}
+
+bench_speed() {
+  local scene
+  echo "| bake | processor, s | light, s | stated error, % | memory, MB |"
+  echo "|---|---|---|---|---|"
+  for scene in box-small "$shared"/truth/{a_cornell,b_tworooms,d_blob}.glb; do
+    [[ $scene == box-small || -e $scene ]] || continue
+    speed_row "$(basename "$scene"), --target-error 3" "$scene" --target-error 3
+    speed_row "$(basename "$scene"), --preview" "$scene" --preview
+    speed_row "$(basename "$scene")" "$scene"
+  done
+  for scene in "$shared"/data/rooms/{dragon-room,sponza}.glb; do
+    [ -e "$scene" ] && speed_row "$(basename "$scene")" "$scene"
+  done
+  speed_row "box (1.1 M triangles)" box
+  for threads in 1 2; do speed_row "box-small, --threads $threads" box-small --threads $threads; done
+  for photons in 1M 64M; do speed_row "box-small, --method tracks --photons $photons" box-small --method tracks --photons $photons; done
+}
 
 # Fails beyond 3 % in root mean square, and beyond a bias of 0.5 % in free space or 1 % on surfaces.
 bench_truth() {
@@ -87,6 +115,14 @@ bench_real() {
     sky=$(find "$shared/data/hdr" -name '*.hdr' | sort | head -1)
     real_row "$name, $(basename "$sky")" "$scene" --environment "$sky"
   done
+}
+
+# Error against bytes: adaptive and regular grids, and what has come of a stream.
+bench_curve() {
+  [ -d "$shared/data" ] || { missing "$shared/data"; return; }
+  mkdir -p "$out/curve"
+  show python3 bench/error_curve.py "$lightwell" "$shared/data/rooms/sponza.glb" "$out/curve" --environment 1,1,1
+  show python3 bench/error_curve.py "$lightwell" "$shared/data/rooms/living-room.glb" "$out/curve"
 }
 
 bench_mesh() { show "$programs/mesh_bench" --benchmark_filter=/1000; }

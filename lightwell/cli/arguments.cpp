@@ -79,6 +79,12 @@ void add_fill_option(CLI::App& command, Fill& fill, const std::string& help) {
                    help);
 }
 
+void add_light_level_options(CLI::App& command, LightLevel& level) {
+  add_number(command, "--light-level", level.share, {0, 1}, "Of a pack: share of the light grid's nodes, 0 to 1")
+      ->default_str("1");
+  add_fill_option(command, level.fill, "How the other nodes are filled");
+}
+
 Result<Vec3f> parse_color(const std::string& text) {
   const char* at = text.c_str();
   Vec3f color;

@@ -12,6 +12,7 @@ struct Options {
   std::string points;
   ProbeOptions probe;
   bool without_environment = false;
+  LightLevel light_level;
   std::vector<GroupFactor> factors;
 };
 
@@ -33,7 +34,7 @@ Result<std::vector<ProbeValue>> run(const Options& options, const std::vector<Li
     LW_CHECK(check_environment(opened));
     const LuminaireSet held = contained_in_grids(opened, *world, !options.without_environment);
     light.held = held;
-    LW_TRY(found, light_of(opened, options.scene, *world, held, groups, progress));
+    LW_TRY(found, light_of(opened, options.scene, *world, held, groups, progress, options.light_level));
     field = dimmed(found, options.factors);
     light.field = &field;
   }
@@ -79,6 +80,7 @@ CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& c
   add_whole(*command, "--spp", options->probe.samples, {1, 100000000}, "Paths a point");
   add_whole(*command, "--max-depth", options->probe.light.max_bounces, {0, 1024},
             "Bounces between source and point; 0 is direct light only");
+  add_light_level_options(*command, options->light_level);
   add_light_group_option(*command, options->factors);
   add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer("Example:\n  lightwell probe room.glb --points points.csv --integrator ivg > irradiance.csv");

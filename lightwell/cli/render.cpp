@@ -146,10 +146,7 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
   add_picture_options(*command, *options);
   add_level_option(*command, options->mesh_level,
                    "Of a pack: the coarsest level with at least this share of the faces, 0 to 1");
-  add_number(*command, "--light-level", options->light_level.share, {0, 1},
-             "Of a pack: share of the light grid's nodes, 0 to 1")
-      ->default_str("1");
-  add_fill_option(*command, options->light_level.fill, "How the other nodes are filled");
+  add_light_level_options(*command, options->light_level);
   add_light_group_option(*command, options->factors);
   add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
   command->footer(
