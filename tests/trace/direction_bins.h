@@ -43,8 +43,8 @@ struct DirectionBins {
   }
 
  private:
-  static size_t place(float x, size_t count) {
-    return std::min(static_cast<size_t>(std::max(x, 0.0f) * static_cast<float>(count)), count - 1);
+  static size_t place(float x, size_t bins) {
+    return std::min(static_cast<size_t>(std::max(x, 0.0f) * static_cast<float>(bins)), bins - 1);
   }
 };
 
