@@ -21,12 +21,12 @@ constexpr size_t likely_brick_bytes = 300;
 /// what the light does.
 constexpr int sets_a_node = 4;
 
-/// The number of a node's place: its level and its corner there.
-uint64_t key_of(const Brick& brick, int point) {
-  uint64_t key = static_cast<uint64_t>(brick.level);
-  for (const int c : brick.corner(point).e) key = key << 20 | static_cast<uint64_t>(c);
-  return key;
-}
+/// Points whose lookups are followed, and the normal offset of these, as a good grid has it, in cells.
+constexpr size_t followed_points = 20'000;
+constexpr float followed_offset = 0.25f;
+constexpr uint64_t followed_seed = 0x51de;
+
+uint64_t key_of(const Brick& brick, int point) { return lattice_place(brick.level, brick.corner(point)); }
 
 /// The brick that would divide the cells at a place; nothing where they are as fine as they may be.
 std::optional<Brick> dividing(const BrickTree& tree, const Vec3f& place) {
@@ -114,12 +114,27 @@ size_t stream_bytes(const LightGrid& grid) {
 
 }  // namespace
 
-LightGrid AdaptiveLight::grid(float most_insides) const {
+AdaptiveLight::AdaptiveLight(const GatheredLight& light, const GridShape& shape, NodeLight nodes, int threads)
+    : light_(light),
+      shape_(shape),
+      nodes_(std::move(nodes)),
+      threads_(threads),
+      tree_(shape.cells()),
+      brick_nodes_(tree_),
+      sides_(light.world().surfaces(), light.box(), followed_points, followed_seed) {
+  sides_.follow(shape_, tree_, followed_offset, threads_);
+}
+
+bool AdaptiveLight::valid(const NodeRule& rule, float insides, int level, const Vec3i& corner) const {
+  return insides <= rule.most_insides && !(rule.by_lookups && sides_.across(lattice_place(level, corner)));
+}
+
+LightGrid AdaptiveLight::grid(const NodeRule& rule) const {
   LightGrid grid;
   grid.shape = shape_;
   grid.moments = nodes_.moments;
   for (size_t node = 0; node < nodes_.insides.size(); node++) {
-    grid.valid.push_back(nodes_.insides[node] <= most_insides);
+    grid.valid.push_back(valid(rule, nodes_.insides[node], 0, shape_.node(node)));
     if (!grid.valid.back()) grid.moments[node] = {};
   }
   quieten(grid, nodes_.noise);
@@ -133,8 +148,9 @@ LightGrid AdaptiveLight::grid(float most_insides) const {
     for (const int point : finer) {
       if (brick_nodes_.at(brick, point) == BrickNodes::none) continue;
       const Node& node = gathered_.at(key_of(tree_.bricks()[brick], point));
-      const bool valid = node.insides <= most_insides;
-      nodes[static_cast<size_t>(point)] = {valid ? node.moments : Moments{}, node_weight(valid)};
+      const Brick& cube = tree_.bricks()[brick];
+      const bool used = valid(rule, node.insides, cube.level, cube.corner(point));
+      nodes[static_cast<size_t>(point)] = {used ? node.moments : Moments{}, node_weight(used)};
       noise[static_cast<size_t>(point)] = node.noise;
     }
     place_brick(grid, brick, nodes);
@@ -154,7 +170,7 @@ Result<LightGrid> AdaptiveLight::relit(const LightGrid& like, const GatheredLigh
   for (const BrickNode& node : relit.brick_nodes_.nodes())
     relit.gathered_.at(key_of(relit.tree_.bricks()[node.brick], node.point)).insides =
         insides_of(like.bricks[node.brick][static_cast<size_t>(node.point)].weight);
-  LightGrid grid = relit.grid(0.5f);
+  LightGrid grid = relit.grid({.most_insides = 0.5f});
   grid.normal_offset = like.normal_offset;
   return grid;
 }
@@ -183,6 +199,7 @@ Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& p
                                                                              found[i].noise};
     nodes_.rays += found[i].rays;
   }
+  sides_.follow(shape_, tree_, followed_offset, threads_);
   return {};
 }
 
@@ -210,9 +227,9 @@ std::vector<Brick> AdaptiveLight::worst_bricks(const TestPoints& points, const L
 }
 
 /// Takes back the newest bricks until the stream is no longer than it may be.
-void AdaptiveLight::keep_within(const RefinementOptions& options) {
+void AdaptiveLight::keep_within(const RefinementOptions& options, const NodeRule& rule) {
   for (;;) {
-    const size_t bytes = stream_bytes(grid(options.most_insides)), bricks = tree_.bricks().size();
+    const size_t bytes = stream_bytes(grid(rule)), bricks = tree_.bricks().size();
     if (bytes <= options.most_bytes || bricks == 0) return;
     const size_t too_many = 1 + bricks * (bytes - options.most_bytes) / bytes;
     BrickTree fewer(tree_.cells());
@@ -222,15 +239,28 @@ void AdaptiveLight::keep_within(const RefinementOptions& options) {
   }
 }
 
-Result<Refinement> AdaptiveLight::refine(const TestPoints& points, const RefinementOptions& options,
-                                         Progress& progress) {
-  const size_t coarse = stream_bytes(grid(options.most_insides));
+/// The grid by a rule, or by what lookups say against it or no longer say, whichever errs less.
+LightGrid AdaptiveLight::best_grid(const TestPoints& points, NodeRule& rule) const {
+  const auto by = [&](const NodeRule& way) {
+    LightGrid grid = this->grid(way);
+    grid.normal_offset = points.best_offset(grid);
+    return grid;
+  };
+  const NodeRule other{rule.most_insides, !rule.by_lookups};
+  LightGrid grid = by(rule), another = by(other);
+  if (points.badness(another) >= points.badness(grid)) return grid;
+  rule = other;
+  return another;
+}
+
+Result<Refined> AdaptiveLight::refine(const TestPoints& points, const RefinementOptions& options, Progress& progress) {
+  NodeRule rule = options.rule;
+  const size_t coarse = stream_bytes(grid(rule));
   const size_t addable = options.most_bytes - std::min(coarse, options.most_bytes);
   progress.stage("finer light", static_cast<double>(options.most_bytes), "bytes");
   Refinement end = Refinement::to_budget;
   for (int round = 1; round <= rounds; round++) {
-    LightGrid grid = this->grid(options.most_insides);
-    grid.normal_offset = points.best_offset(grid);
+    const LightGrid grid = best_grid(points, rule);
     if (points.error(grid) <= options.target_error) {
       end = Refinement::to_target;
       break;
@@ -251,8 +281,9 @@ Result<Refinement> AdaptiveLight::refine(const TestPoints& points, const Refinem
     }
     LW_CHECK(divide(worst, progress));
   }
-  keep_within(options);
-  return end;
+  best_grid(points, rule);
+  keep_within(options, rule);
+  return Refined{end, rule};
 }
 
 }  // namespace lightwell

@@ -7,39 +7,47 @@
 #include "lightwell/bake/estimator.h"
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/bake/light_error.h"
+#include "lightwell/bake/lookup_sides.h"
 #include "lightwell/base/progress.h"
 
 namespace lightwell {
+
+/// Which nodes are used: those with at most so large a share of insides around them, and, if that is asked for, that
+/// most lookups do not reach through walls.
+struct NodeRule {
+  float most_insides = 1;
+  bool by_lookups = false;
+};
 
 /// When an adaptive grid is fine enough.
 struct RefinementOptions {
   float target_error = 0;  ///< root mean square, a share of the mean irradiance
   size_t most_bytes = 0;   ///< of its stream
-  float most_insides = 1;  ///< see AdaptiveLight::grid
+  NodeRule rule{};
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
 
 /// Why an adaptive grid was divided no further.
-enum class Refinement { to_target, to_budget, to_finest, to_deadline };
+enum class Refinement { to_target, to_budget, to_finest, to_deadline, to_no_gain };
+
+/// Why, and by which rule its nodes are used best.
+struct Refined {
+  Refinement end{};
+  NodeRule rule;
+};
 
 /// The light of a grid's own nodes and of the nodes of bricks, gathered one by one as the grid is divided.
 class AdaptiveLight {
  public:
   /// `light` must outlive this; `nodes` is the light of the grid's own nodes.
-  AdaptiveLight(const GatheredLight& light, const GridShape& shape, NodeLight nodes, int threads)
-      : light_(light),
-        shape_(shape),
-        nodes_(std::move(nodes)),
-        threads_(threads),
-        tree_(shape.cells()),
-        brick_nodes_(tree_) {}
+  AdaptiveLight(const GatheredLight& light, const GridShape& shape, NodeLight nodes, int threads);
 
   /// Adds bricks where the grid errs most at `points`. The same for any number of threads, unless the deadline ends it.
   /// Fails when `progress` asks to stop.
-  Result<Refinement> refine(const TestPoints& points, const RefinementOptions& options, Progress& progress);
+  Result<Refined> refine(const TestPoints& points, const RefinementOptions& options, Progress& progress);
 
-  /// The grid of which nodes with at most so large a share of insides around them are valid.
-  LightGrid grid(float most_insides) const;
+  /// The grid of which the nodes of a rule are valid.
+  LightGrid grid(const NodeRule& rule) const;
 
   /// A grid of the cells and valid nodes of another one, in another light: `nodes` is that of the grid's own nodes.
   /// Fails when `progress` asks to stop.
@@ -59,7 +67,10 @@ class AdaptiveLight {
 
   std::vector<Brick> worst_bricks(const TestPoints& points, const LightGrid& grid, size_t count) const;
   Result<void> divide(const std::vector<Brick>& bricks, Progress& progress);
-  void keep_within(const RefinementOptions& options);
+  void keep_within(const RefinementOptions& options, const NodeRule& rule);
+  LightGrid best_grid(const TestPoints& points, NodeRule& rule) const;
+
+  bool valid(const NodeRule& rule, float insides, int level, const Vec3i& corner) const;
 
   const GatheredLight& light_;
   GridShape shape_;
@@ -67,7 +78,8 @@ class AdaptiveLight {
   int threads_;
   BrickTree tree_;
   BrickNodes brick_nodes_;
-  std::unordered_map<uint64_t, Node> gathered_;  // nodes of bricks, by their place
+  std::unordered_map<uint64_t, Node> gathered_;  // nodes of bricks, by their lattice_place()
+  LookupSides sides_;
 };
 
 }  // namespace lightwell

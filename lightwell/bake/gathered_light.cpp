@@ -65,7 +65,7 @@ NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, in
   NodeSurroundings found;
   const float shift = random.uniform(), turn = random.uniform();
   const float solid_angle = 4 * pi / static_cast<float>(rays);
-  int insides = 0;
+  int insides = 0, met = 0, backs = 0;
   Moments alternating;  // every other sample counts negative
   float sign = 1;
   const auto add = [&](const Vec3f& direction, const Vec3f& radiance) {
@@ -78,10 +78,13 @@ NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, in
     const Gathering gathering = gather(world_, {position, direction}, cache_.near(), random);
     found.rays += static_cast<uint32_t>(gathering.rays);
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
+    met += gathering.meets_surface;
+    backs += gathering.meets_surface && !gathering.first.front;
     const Vec3f radiance = cache_.reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
     add(direction, radiance * solid_angle);
   }
   found.insides = static_cast<float>(insides) / static_cast<float>(rays);
+  found.behind = met > 0 ? static_cast<float>(backs) / static_cast<float>(met) : 0;
   found.rays += sample_luminaires(position, {}, random, [&](const Arrival& arrival) {
     const float weight =
         arrival.extended ? power_heuristic(luminaire_samples * arrival.density, 1 / solid_angle) : 1.0f;
@@ -133,7 +136,7 @@ NodeSurroundings GatheredLight::gather_node(const Vec3f& node, const Vec3f& cell
     direction[d / 2] = d % 2 == 0 ? 1.0f : -1.0f;
     const auto beyond = facing_surface(position, direction, close_by * cell[d / 2], random);
     if (!beyond) continue;
-    found.moments.m[static_cast<size_t>(d)] = irradiance(*beyond, direction, 2 * rays_a_node, random);
+    found.moments.m[static_cast<size_t>(d)] = received(*beyond, direction, 2 * rays_a_node, random).irradiance;
     found.rays += 2 * rays_a_node;
   }
   return found;
@@ -156,9 +159,10 @@ std::optional<Vec3f> GatheredLight::facing_surface(const Vec3f& position, const 
   return last;
 }
 
-Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random,
-                                float near) const {
+Received GatheredLight::received(const Vec3f& position, const Vec3f& normal, int rays, Random& random,
+                                 float near) const {
   Vec3f sum{};
+  int insides = 0;
   const Frame frame(normal);
   const float shift = random.uniform(), turn = random.uniform();
   const float n = static_cast<float>(rays);
@@ -167,6 +171,7 @@ Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int 
     const Gathering gathering =
         gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, near * cache_.near(), random);
     const Vec3f direction = frame.to_world(up);
+    insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
     sum += (cache_.reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
   }
   sample_luminaires(position, normal, random, [&](const Arrival& arrival) {
@@ -176,7 +181,7 @@ Vec3f GatheredLight::irradiance(const Vec3f& position, const Vec3f& normal, int 
         arrival.extended ? power_heuristic(luminaire_samples * arrival.density, n * cosine / pi) : 1.0f;
     sum += arrival.radiance * (cosine * weight / (luminaire_samples * arrival.density));
   });
-  return sum;
+  return {sum, static_cast<float>(insides) / n};
 }
 
 Vec3f GatheredLight::emitted(const Vec3f& position, const Vec3f& direction, const Gathering& gathering,

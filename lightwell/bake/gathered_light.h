@@ -30,9 +30,8 @@ class GatheredLight {
   static constexpr int rays_a_node = 256;
   NodeSurroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
 
-  /// The irradiance of a surface, W/m2. Rays that end within so many cells of the surface cache are followed on: see
-  /// gather().
-  Vec3f irradiance(const Vec3f& position, const Vec3f& normal, int rays, Random& random, float near = 1) const;
+  /// What a surface receives. Rays that end within so many cells of the surface cache are followed on: see gather().
+  Received received(const Vec3f& position, const Vec3f& normal, int rays, Random& random, float near = 1) const;
 
  private:
   NodeSurroundings gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const;

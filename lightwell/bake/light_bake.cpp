@@ -107,6 +107,13 @@ Result<NodeLight> light_nodes(const BakeScene& scene, const GridShape& shape, co
   return estimator->finish(*sum);
 }
 
+/// The ways to use nodes that see some insides.
+constexpr std::array<NodeRule, 8> rules = {
+    {{0.25f}, {0.5f}, {0.8f}, {0.95f}, {0.25f, true}, {0.5f, true}, {0.8f, true}, {0.95f, true}}};
+
+/// What a refined grid may err by at most, as a share of what it did before: else its bytes are spared.
+constexpr float most_after_refinement = 0.9f;
+
 /// Keeps the grid that errs least of those that it is shown.
 class BestGrid {
  public:
@@ -114,16 +121,17 @@ class BestGrid {
 
   /// Shows it the ways to use the nodes' light. A node that sees some insides stands near a thin solid, or behind a
   /// sheet: in rooms of sheets it is better left out, among furniture it is better kept.
-  /// True when one of them is the best so far.
-  bool consider(const AdaptiveLight& light) {
+  /// True when one of them is the best so far, and errs at most by this share of what the best one did.
+  bool consider(const AdaptiveLight& light, std::span<const NodeRule> ways = rules, float most = 1) {
     bool better = false;
-    for (const float most_insides : {0.25f, 0.5f, 0.8f, 0.95f}) {
-      LightGrid grid = light.grid(most_insides);
+    const float allowed = most * error_;
+    for (const NodeRule& rule : ways) {
+      LightGrid grid = light.grid(rule);
       grid.normal_offset = test_.best_offset(grid);
-      const float error = test_.mean_error(grid);
-      if (!grid_.moments.empty() && error >= error_) continue;
+      const float error = test_.badness(grid);
+      if (!grid_.moments.empty() && error >= (better ? error_ : allowed)) continue;
       error_ = error;
-      most_insides_ = most_insides;
+      rule_ = rule;
       nodes_ = light.count();
       grid_ = std::move(grid);
       better = true;
@@ -131,14 +139,15 @@ class BestGrid {
     return better;
   }
 
-  float most_insides() const { return most_insides_; }
+  const NodeRule& rule() const { return rule_; }
   size_t nodes() const { return nodes_; }
   LightGrid take() { return std::move(grid_); }
 
  private:
   const TestPoints& test_;
   LightGrid grid_;
-  float error_ = 0, most_insides_ = 0;
+  float error_ = 0;
+  NodeRule rule_;
   size_t nodes_ = 0;
 };
 
@@ -212,11 +221,14 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
     fitting.seed ^= 0xb71c;
     LW_TRY(fit, TestPoints::gather(light, fitting, progress));
     const uint64_t before = chosen->rays();
-    const RefinementOptions refinement{options.target_error, effort.most_bytes, best.most_insides(), effort.deadline};
-    LW_TRY(end, chosen->refine(fit, refinement, progress));
-    if (!statistics.refinement) statistics.refinement = end;
+    const size_t unrefined = chosen->count();
+    const RefinementOptions refinement{options.target_error, effort.most_bytes, best.rule(), effort.deadline};
+    LW_TRY(refined, chosen->refine(fit, refinement, progress));
     statistics.rays += chosen->rays() - before;
-    best.consider(*chosen);
+    // Its stream is within the bytes by this rule, and they are to pay.
+    const bool pays = best.consider(*chosen, std::array{refined.rule}, most_after_refinement);
+    if (!statistics.refinement)
+      statistics.refinement = pays || chosen->count() == unrefined ? refined.end : Refinement::to_no_gain;
   }
   statistics.nodes += best.nodes();
   LightGrid all = best.take();

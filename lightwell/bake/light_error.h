@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/base/progress.h"
 #include "lightwell/light/grid.h"
@@ -39,6 +41,8 @@ class TestPoints {
   /// The mean difference, of any sign, as a share of the mean irradiance: the few points of narrow gaps, which a root
   /// mean square is made of, do not rule it.
   float mean_error(const LightGrid& grid) const;
+  /// By what a grid is chosen: the geometric mean of both.
+  float badness(const LightGrid& grid) const { return std::sqrt(mean_error(grid) * error(grid)); }
   /// Of a few normal offsets, in cells of each level, the one with which the grid errs least: small where nodes stand
   /// well, larger where walls are thinner than a cell.
   float best_offset(LightGrid grid) const;

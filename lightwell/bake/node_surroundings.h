@@ -13,6 +13,13 @@ struct NodeSurroundings {
   float insides = 0;  ///< share of the rays that met the inside of a solid
   float noise = 0;    ///< of the moments, as a share of them: half of the rays against the other half
   uint32_t rays = 0;
+  float behind = 0;  ///< share of the surfaces met that were met from the back
+};
+
+/// What rays from the front of a surface find.
+struct Received {
+  Vec3f irradiance{};  ///< W/m2
+  float insides = 0;   ///< share of the rays that met the inside of a solid
 };
 
 /// The sum of the sizes of E in all directions and colours.

@@ -182,6 +182,7 @@ std::string name_of(Refinement refinement) {
     case Refinement::to_budget: return "budget";
     case Refinement::to_finest: return "finest cells";
     case Refinement::to_deadline: return "time";
+    case Refinement::to_no_gain: return "no gain";
   }
   return {};
 }

@@ -300,7 +300,8 @@ TEST(BakeLight, AdaptiveGridsAgreeWithTheTruth) {
 }
 
 TEST(BakeLight, AdaptiveGridsAreTheSameForAnyNumberOfThreads) {
-  const Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1, 1}}), lambertian(0.5f, 1));
+  Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1, 1}}), lambertian(0.5f));
+  scene.lamps = {point_lamp({{0.2f, 0.8f, 0.3f}}, Vec3f::filled(1))};
   const auto world = world_of(scene);
   LightBakeOptions o = options(0, 20000);
   o.most_bytes = 16'000;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "lightwell/light/grid.h"
+#include "lightwell/trace/trace_scene.h"
+
+namespace lightwell {
+
+/// The number of a place of a lattice: a corner of cells of a level, counted from the grid's first node. A corner that
+/// coarser cells have too is that of the coarsest.
+uint64_t lattice_place(int level, Vec3i corner);
+
+/// Tells which nodes the lookups of a scene's surfaces reach through walls: nodes under a floor that is a sheet, or in
+/// the next room. Where most do, the node had better be left out, whatever is known of solids and sheets.
+class LookupSides {
+ public:
+  /// Takes `count` points of the fronts of what lies in a box, and those of the backs of what has two sides, which
+  /// count less: they are seldom what is looked at. The scene must outlive this.
+  LookupSides(const TraceScene& scene, const Box3f& box, size_t count, uint64_t seed);
+
+  /// Follows the points' lookups in a grid of these cells, shifted by 0 to `most_offset` cells.
+  void follow(const GridShape& shape, const BrickTree& tree, float most_offset, int threads);
+  /// Whether more of the lookups' weight reaches a node through surfaces than without; false where none reaches it.
+  bool across(uint64_t place) const;
+
+ private:
+  struct Point {
+    Vec3f position{}, normal{};
+    float weight = 1;
+  };
+
+  const TraceScene& scene_;
+  std::vector<Point> points_;
+  std::unordered_map<uint64_t, float> balance_;  // weight that reaches a node without a wall, less that through walls
+};
+
+}  // namespace lightwell
