@@ -77,6 +77,14 @@ bench_truth() {
         grep -E '^(rms|bias|p95)'
     done
   done
+  # A pack's grid holds the sky's own light, too.
+  local courtyard=tests/data/truth/e_courtyard
+  show "$lightwell" bake "$courtyard.glb" -o "$out/courtyard.lw.glb" --quiet >/dev/null
+  for points in free surf; do
+    "$lightwell" probe "$out/courtyard.lw.glb" --points "$courtyard.$points.indirect_and_sky.csv" --integrator ivg --quiet >"$out/courtyard.csv"
+    printf 'e_courtyard %s\n' "$points"
+    python3 "$shared/tools/compare_truth.py" "$courtyard.$points.indirect_and_sky.csv" "$out/courtyard.csv" | grep -E '^(rms|bias|p95)'
+  done
 }
 
 # Estimators in the truth's rooms: error against processor time.
