@@ -51,6 +51,7 @@ int serve(const ServerOptions& options, bool open, const Console& console) {
 CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& chosen) {
   struct Options {
     ServerOptions server;
+    double grace = std::chrono::duration<double>(ServerOptions{}.grace).count();
     bool open = false;
   };
   auto options = std::make_shared<Options>();
@@ -64,10 +65,22 @@ CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& c
       ->type_name("ADDRESS");
   add_whole(*command, "--port", options->server.port, {0, 65535}, "Port; 0 for any free one");
   command->add_option("--page", options->server.page, "Folder of the page")->type_name("FOLDER");
+  add_whole(*command, "--max-connections", options->server.max_connections, {1, 1e6},
+            "Open at once; beyond it idle and slow ones are closed for new ones");
+  add_whole(*command, "--connections-per-address", options->server.connections_per_address, {0, 1e6},
+            "The same for one address, or IPv6 network; 0 for any number, as behind a proxy");
+  add_whole(*command, "--requests-per-second", options->server.requests_per_second, {0, 1e6},
+            "Of one address; beyond it the answer is 429. 0 for any number");
+  add_number(*command, "--grace", options->grace, {0, 86400},
+             "Seconds that SIGTERM and Ctrl-C leave to answers under way; a second signal ends at once")
+      ->default_str("5");
   command->add_flag("--open", options->open, "Open the page in a browser");
   command->footer("Examples:\n  lightwell serve room.lw.glb\n  lightwell serve packs/ --bind 0.0.0.0 --port 80");
-  command->callback(
-      [=, &console, &chosen] { chosen = [=, &console] { return serve(options->server, options->open, console); }; });
+  command->callback([=, &console, &chosen] {
+    const std::chrono::duration<double> grace(options->grace);
+    options->server.grace = std::chrono::duration_cast<std::chrono::milliseconds>(grace);
+    chosen = [=, &console] { return serve(options->server, options->open, console); };
+  });
   return command;
 }
 

@@ -13,6 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view pack_prefix = "/packs/";
+constexpr std::chrono::seconds list_age(1);
+constexpr std::chrono::milliseconds clock_grain(50);  // of most file systems less; 10 ms is common
 
 /// Undoes percent encoding (RFC 3986, 2.1). Nothing when it is broken or hides a zero byte.
 std::optional<std::string> decode_percent(std::string_view text) {
@@ -76,6 +78,11 @@ std::string_view content_type(const fs::path& name) {
   return found == types.end() ? "application/octet-stream" : found->second;
 }
 
+bool is_compressible(std::string_view type) {
+  return type.starts_with("text/") || type == "application/json" || type == "application/wasm" ||
+         type == "image/svg+xml" || type == "model/gltf+json";
+}
+
 }  // namespace
 
 Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path& page) {
@@ -123,7 +130,19 @@ std::vector<fs::path> Catalog::empty_folders() {
   return empty;
 }
 
-Result<std::string> Catalog::packs_json() {
+Catalog::FolderTimes Catalog::folder_times() const {
+  FolderTimes times;
+  for (const PackFolder& folder : folders_) {
+    std::error_code gone;
+    times.push_back(fs::last_write_time(folder.path(), gone));
+  }
+  return times;
+}
+
+Result<std::shared_ptr<const std::string>> Catalog::packs_json() {
+  const auto now = std::chrono::steady_clock::now();
+  FolderTimes times = folder_times();
+  if (now < list_.good_until && times == list_.times) return list_.json;
   LW_TRY(packs, this->packs());
   std::string json = "{\"packs\":[";
   for (const ServedPack& pack : packs) {
@@ -131,7 +150,13 @@ Result<std::string> Catalog::packs_json() {
     json += "{\"name\":" + json_string(pack.name) + ",\"url\":\"" + std::string(pack_prefix) +
             encode_percent(pack.name) + "\",\"bytes\":" + std::to_string(pack.bytes) + "}";
   }
-  return json + "]}\n";
+  list_.json = std::make_shared<const std::string>(json + "]}\n");
+  // A folder that changes twice within the grain of its file system's clock shows one time.
+  const auto settled = fs::file_time_type::clock::now() - clock_grain;
+  const bool telling = std::ranges::all_of(times, [&](auto time) { return time < settled; });
+  list_.good_until = telling ? now + list_age : now;
+  list_.times = std::move(times);
+  return list_.json;
 }
 
 Result<OpenFile> Catalog::pack(const std::string& name) {
@@ -150,13 +175,14 @@ Result<Catalog::File> Catalog::file(std::string_view url_path) {
   if (!path || path->empty() || path->front() != '/') return fail("", "is no path of a URL");
   if (path->starts_with(pack_prefix)) {
     LW_TRY(open, pack(path->substr(pack_prefix.size())));
-    return File{std::move(open), content_type(*path)};
+    return File{std::move(open), content_type(*path), false};
   }
   const std::string name = *path == "/" ? "index.html" : path->substr(1);
   const auto place = page_.empty() ? std::nullopt : file_below(page_, name);
   if (!place) return fail(ErrorKind::io, name, "there is no such file");
   LW_TRY(open, OpenFile::open(*place));
-  return File{std::move(open), content_type(name)};
+  const std::string_view type = content_type(name);
+  return File{std::move(open), type, is_compressible(type)};
 }
 
 }  // namespace lightwell

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,15 +18,18 @@ struct RequestHead {
   std::string target;  ///< a path, with or without a query, or a whole URL (RFC 9112, 3.2)
   std::string range;
   std::string if_range;
+  std::string if_match;
   std::string if_none_match;
+  std::string accept_encoding;
 };
 
 /// An answer, without the fields that belong to the connection.
 struct Answer {
   int status = 200;
   std::vector<std::pair<std::string, std::string>> fields;
-  std::string text;  ///< the body, unless it is a part of a file
-  OpenFile file;     ///< when open: the body is bytes first ... first + length - 1 of it
+  std::shared_ptr<const std::string> text;  ///< what the body is a part of, unless a file is open
+  OpenFile file;
+  /// The body is bytes first ... first + length - 1 of the text or file.
   uint64_t first = 0;
   uint64_t length = 0;   ///< of the body; Content-Length
   bool has_body = true;  ///< false: for HEAD and for status 204 and 304
@@ -36,7 +40,9 @@ struct Answer {
 /// Answers a request from a catalog. Status 503 says that the system has no descriptors left for what is there.
 Answer answer_request(Catalog& catalog, const RequestHead& request);
 
-/// An answer that is a short text.
-Answer answer_text(int status, std::string text, std::string type = "text/plain; charset=utf-8");
+/// An answer that is a text.
+Answer answer_text(int status, std::shared_ptr<const std::string> text, std::string type);
+/// An answer that is a sentence.
+Answer answer_text(int status, std::string text);
 
 }  // namespace lightwell

@@ -2,24 +2,17 @@
 #include "lightwell/server/server.h"
 
 #include <sys/eventfd.h>
-#include <sys/sendfile.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <optional>
-#include <set>
 
 #include "lightwell/base/beast.h"
-#include "lightwell/server/response.h"
+#include "lightwell/server/session.h"
 
 namespace lightwell {
 namespace {
-
-constexpr size_t longest_header = 8192;
-constexpr size_t least_progress = 16384;   // bytes that a client has to take in ServerOptions::slow
-constexpr size_t longest_turn = 1u << 20;  // bytes sent for one connection before the others have their turn
-
-class Session;
 
 /// "127.0.0.1:8080", "[::1]:8080" (RFC 3986, 3.2.2).
 std::string authority(const std::string& address, uint16_t port) {
@@ -27,181 +20,31 @@ std::string authority(const std::string& address, uint16_t port) {
   return host + ":" + std::to_string(port);
 }
 
-/// A request names its host once; of HTTP/1.0 it need not (RFC 9112, 3.2).
-bool names_one_host(const http::request<http::empty_body>& request) {
-  const size_t hosts = request.count(http::field::host);
-  return hosts == 1 || (hosts == 0 && request.version() < 11);
+/// Lets the process have as many descriptors as that number of connections needs, two each, and says how many
+/// connections it can have then.
+size_t provide_descriptors(size_t connections) {
+  constexpr size_t for_others = 64;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return connections;
+  const rlim_t wanted = 2 * static_cast<rlim_t>(connections) + for_others;
+  if (limit.rlim_cur < wanted) {
+    limit.rlim_cur = std::min(wanted, limit.rlim_max);
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+    ::getrlimit(RLIMIT_NOFILE, &limit);
+  }
+  const rlim_t possible = limit.rlim_cur > 2 * for_others ? (limit.rlim_cur - for_others) / 2 : for_others / 2;
+  return std::min<rlim_t>(connections, possible);
 }
-
-/// The part of a server that its sessions share.
-struct Shared {
-  Catalog& catalog;
-  const ServerOptions& options;
-  std::set<Session*> sessions;
-  bool stopping = false;
-  std::function<void()> left;  ///< called when a session has gone
-};
-
-/// One connection: requests and their answers in turn. The handlers that wait for it keep it alive.
-class Session : public std::enable_shared_from_this<Session> {
- public:
-  Session(tcp::socket socket, Shared& shared)
-      : shared_(shared), socket_(std::move(socket)), deadline_(socket_.get_executor()), buffer_(longest_header) {
-    shared_.sessions.insert(this);
-  }
-  ~Session() {
-    shared_.sessions.erase(this);
-    shared_.left();
-  }
-
-  void start() {
-    error_code ignored;
-    socket_.set_option(tcp::no_delay(true), ignored);
-    socket_.native_non_blocking(true, ignored);
-    read_request();
-  }
-
-  /// Closes the connection now if no answer is under way, else after it.
-  void finish() {
-    if (reading_) close();
-  }
-  void close() {
-    error_code ignored;
-    socket_.shutdown(tcp::socket::shutdown_both, ignored);
-    socket_.close(ignored);
-    deadline_.cancel(ignored);
-  }
-
- private:
-  void set_deadline(std::chrono::milliseconds time) {
-    deadline_.expires_after(time);
-    deadline_.async_wait([weak = weak_from_this()](error_code error) {
-      if (const auto self = weak.lock(); self && !error) self->close();
-    });
-  }
-
-  void read_request() {
-    parser_.emplace();
-    parser_->header_limit(longest_header);
-    set_deadline(shared_.options.idle);
-    reading_ = true;
-    http::async_read_header(socket_, buffer_, *parser_, [self = shared_from_this()](error_code error, size_t) {
-      self->reading_ = false;
-      self->on_header(error);
-    });
-  }
-
-  void on_header(error_code error) {
-    if (!socket_.is_open()) return;
-    if (error == http::error::header_limit || error == http::error::buffer_overflow)
-      return send(answer_text(431, "the request's header is too long\n"), false);
-    if (error.category() == http::make_error_code(http::error::bad_target).category() &&
-        error != http::error::end_of_stream && error != http::error::partial_message)
-      return send(answer_text(400, "bad request\n"), false);
-    if (error) return close();
-    const auto& request = parser_->get();
-    const auto field = [&](http::field name) { return std::string(request[name].data(), request[name].size()); };
-    if (!names_one_host(request)) return send(answer_text(400, "a request has one Host\n"), false);
-    const RequestHead head{std::string(request.method_string()), std::string(request.target()),
-                           field(http::field::range), field(http::field::if_range), field(http::field::if_none_match)};
-    // A request with a body is answered and the connection closed, so the body need not be read.
-    send(answer_request(shared_.catalog, head), request.keep_alive() && parser_->is_done());
-  }
-
-  void send(Answer answer, bool keep_alive) {
-    answer_ = std::move(answer);
-    head_.emplace();
-    head_->result(static_cast<unsigned>(answer_.status));
-    head_->version(11);
-    head_->set(http::field::server, "lightwell");
-    for (const auto& [name, value] : answer_.fields) head_->set(name, value);
-    head_->keep_alive(keep_alive && !shared_.stopping);
-    if (answer_.status != 204 && answer_.status != 304) head_->content_length(answer_.length);
-    serializer_.emplace(*head_);
-    set_deadline(shared_.options.slow);
-    http::async_write_header(socket_, *serializer_, [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->close();
-      self->send_body();
-    });
-  }
-
-  void send_body() {
-    if (!answer_.has_body) return next_request();
-    if (answer_.file.is_open()) return send_file();
-    asio::async_write(socket_, asio::buffer(answer_.text), [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->close();
-      self->next_request();
-    });
-  }
-
-  /// Sends what the socket takes of the file, then waits until it takes more.
-  void send_file() {
-    size_t turn = 0;
-    while (answer_.length > 0 && turn < longest_turn) {
-      off_t offset = static_cast<off_t>(answer_.first);
-      const ssize_t sent = ::sendfile(socket_.native_handle(), answer_.file.descriptor(), &offset,
-                                      std::min<uint64_t>(answer_.length, longest_turn - turn));
-      if (sent < 0 && errno == EINTR) continue;
-      if (sent < 0 && errno == EAGAIN) break;
-      if (sent <= 0) return close();  // the client has gone, or the file has become shorter
-      answer_.first += static_cast<uint64_t>(sent);
-      answer_.length -= static_cast<uint64_t>(sent);
-      turn += static_cast<size_t>(sent);
-    }
-    if (answer_.length == 0) return next_request();
-    progress_ += turn;
-    if (progress_ >= least_progress) {
-      progress_ = 0;
-      set_deadline(shared_.options.slow);
-    }
-    socket_.async_wait(tcp::socket::wait_write, [self = shared_from_this()](error_code error) {
-      if (error) return self->close();
-      self->send_file();
-    });
-  }
-
-  void next_request() {
-    answer_ = {};
-    progress_ = 0;
-    if (shared_.stopping) return close();
-    return head_->keep_alive() ? read_request() : close_gently();
-  }
-
-  /// Closes once the client has, or after a while, so that it can read what is on its way.
-  void close_gently() {
-    error_code ignored;
-    socket_.shutdown(tcp::socket::shutdown_send, ignored);
-    set_deadline(std::min(shared_.options.grace, shared_.options.idle));
-    drain();
-  }
-  void drain() {
-    buffer_.clear();
-    socket_.async_read_some(buffer_.prepare(longest_header), [self = shared_from_this()](error_code error, size_t) {
-      if (error) return self->close();
-      self->drain();
-    });
-  }
-
-  Shared& shared_;
-  tcp::socket socket_;
-  asio::steady_timer deadline_;
-  beast::flat_buffer buffer_;
-  std::optional<http::request_parser<http::empty_body>> parser_;
-  std::optional<http::response<http::empty_body>> head_;
-  std::optional<http::response_serializer<http::empty_body>> serializer_;
-  Answer answer_;
-  size_t progress_ = 0;  ///< bytes taken since the deadline was set
-  bool reading_ = false;
-};
 
 }  // namespace
 
 class Server::Loop {
  public:
   Loop(const ServerOptions& options, Catalog catalog)
-      : options_(options), catalog_(std::move(catalog)), shared_{catalog_, options_, {}, false, [this] {
-                                                                   on_left();
-                                                                 }} {}
+      : options_(options),
+        catalog_(std::move(catalog)),
+        connections_({provide_descriptors(options.max_connections), options.connections_per_address}),
+        rate_(options.requests_per_second) {}
 
   /// Sessions that are left are destroyed with io_, when nothing that they could report to is left.
   ~Loop() {
@@ -217,6 +60,7 @@ class Server::Loop {
     if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
+    if (!error) acceptor_.non_blocking(true, error);
     if (!error) port_ = acceptor_.local_endpoint(error).port();
     if (error) {
       const std::string hint = error == asio::error::address_in_use ? "; --port 0 takes a free one" : "";
@@ -233,8 +77,9 @@ class Server::Loop {
   Catalog& catalog() { return catalog_; }
 
   void run() {
-    stop_event_.async_wait(asio::posix::stream_descriptor::wait_read, [this](error_code) { begin_stop(); });
-    accept();
+    await_stop();
+    await_client();
+    look_for_the_late();
     io_.run();
   }
 
@@ -244,50 +89,83 @@ class Server::Loop {
   }
 
  private:
-  void accept() {
-    if (shared_.stopping || accepting_ || shared_.sessions.size() >= options_.max_connections) return;
-    accepting_ = true;
-    acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-      accepting_ = false;
-      if (shared_.stopping) return;
-      if (!error) std::make_shared<Session>(std::move(socket), shared_)->start();
-      if (!error) return accept();
-      // No descriptors are left: some may be free again soon.
-      pause_.expires_after(std::chrono::milliseconds(100));
-      pause_.async_wait([this](error_code cancelled) {
-        if (!cancelled) accept();
-      });
+  void await_client() {
+    if (shared_.stopping || awaiting_) return;
+    awaiting_ = true;
+    acceptor_.async_wait(tcp::acceptor::wait_read, [this](error_code) {
+      awaiting_ = false;
+      if (!shared_.stopping) admit();
+    });
+  }
+
+  /// Lets the next client in, who waits. Without room for it this is tried again when one leaves, and soon.
+  void admit() {
+    if (!connections_.make_room()) return;
+    error_code error;
+    tcp::endpoint client;
+    tcp::socket socket = acceptor_.accept(client, error);
+    const bool exhausted = error == asio::error::no_descriptors || error == std::errc::too_many_files_open_in_system ||
+                           error == asio::error::no_memory || error == asio::error::no_buffer_space;
+    if (exhausted && !connections_.close_an_idle_one()) return;
+    if (!error && connections_.make_room_of(peer_of(client.address())))
+      std::make_shared<Session>(std::move(socket), peer_of(client.address()), shared_)->start();
+    await_client();
+  }
+
+  /// Now and then closes those whose time is up.
+  void look_for_the_late() {
+    using std::chrono::milliseconds;
+    const milliseconds shortest = std::min(options_.idle, options_.slow);
+    pause_.expires_after(std::clamp(shortest / 8, milliseconds(5), milliseconds(1000)));
+    pause_.async_wait([this](error_code cancelled) {
+      if (cancelled) return;
+      const auto now = Connection::Clock::now();
+      connections_.close_the_late(now);
+      rate_.forget(now);
+      await_client();
+      look_for_the_late();
     });
   }
 
   void on_left() {
     if (shared_.stopping) return end_if_empty();
-    accept();
+    await_client();
+  }
+
+  void await_stop() {
+    stop_event_.async_wait(asio::posix::stream_descriptor::wait_read, [this](error_code) {
+      uint64_t times = 0;
+      [[maybe_unused]] const ssize_t read = ::read(stop_event_.native_handle(), &times, sizeof times);
+      if (shared_.stopping || times > 1) return io_.stop();
+      begin_stop();
+      await_stop();
+    });
   }
 
   void begin_stop() {
     shared_.stopping = true;
     error_code ignored;
     acceptor_.close(ignored);
-    const std::vector<Session*> sessions(shared_.sessions.begin(), shared_.sessions.end());
-    for (Session* session : sessions) session->finish();
-    pause_.expires_after(options_.grace);
-    pause_.async_wait([this](error_code) { io_.stop(); });
+    connections_.finish();
+    end_.expires_after(options_.grace);
+    end_.async_wait([this](error_code) { io_.stop(); });
     end_if_empty();
   }
 
   void end_if_empty() {
-    if (shared_.sessions.empty()) pause_.cancel();
+    if (connections_.empty()) end_.cancel();
   }
 
   ServerOptions options_;
   Catalog catalog_;
-  Shared shared_;
+  Connections connections_;
+  RequestRate rate_;
+  Shared shared_{catalog_, options_, connections_, rate_, false, [this] { on_left(); }};
   asio::io_context io_{1};
   tcp::acceptor acceptor_{io_};
   asio::posix::stream_descriptor stop_event_{io_};
-  asio::steady_timer pause_{io_};
-  bool accepting_ = false;
+  asio::steady_timer pause_{io_}, end_{io_};
+  bool awaiting_ = false;
   uint16_t port_ = 0;
 };
 

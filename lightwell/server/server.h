@@ -19,15 +19,18 @@ struct ServerOptions {
   uint16_t port = 8080;                      ///< 0: any free one
   std::vector<std::filesystem::path> packs;  ///< files, or folders of *.glb
   std::filesystem::path page;                ///< the folder with the page's index.html; empty: no page
-  size_t max_connections = 1024;             ///< more wait in the system's queue
-  std::chrono::milliseconds idle{60000};     ///< for a whole request header, from the end of the response before it
-  std::chrono::milliseconds slow{30000};     ///< for every 16 KB that a client has to take
-  std::chrono::milliseconds grace{5000};     ///< for responses under way when the server is stopped
+  /// Beyond these, in all and of one address, an idle connection is closed for a new one, else the one that takes its
+  /// answer slowest. Where all are fast, new ones wait. 0 of one address is any number.
+  size_t max_connections = 8192, connections_per_address = 1024;
+  uint32_t requests_per_second = 0;       ///< of one address; beyond it the status is 429. 0: any number
+  std::chrono::milliseconds idle{60000};  ///< for a whole request header, from the end of the response before it
+  std::chrono::milliseconds slow{30000};  ///< for every 16 KB that a client has to take (see Pace)
+  std::chrono::milliseconds grace{5000};  ///< for responses under way when the server is stopped
 };
 
-/// An HTTP/1.1 server for packs and the page: GET and HEAD, byte ranges, strong ETags and CORS. One thread,
-/// asynchronous; bodies of files go out by sendfile, so that a connection needs a few kilobytes whatever it downloads.
-/// TLS, compression and HTTP/2 are left to a proxy.
+/// An HTTP/1.1 server for packs and the page: GET and HEAD, byte ranges, strong ETags and CORS; the page's files
+/// gzipped for who accepts that. One thread, asynchronous; bodies of files go out by sendfile, so that a connection
+/// needs a few kilobytes whatever it downloads. TLS and HTTP/2 are left to a proxy.
 ///
 ///   /             the page, /... its files
 ///   /packs/NAME   a pack
@@ -35,7 +38,8 @@ struct ServerOptions {
 ///   /healthz      "ok"
 class Server {
  public:
-  /// Opens the port. The process ignores SIGPIPE from then on.
+  /// Opens the port. The process ignores SIGPIPE from then on, and may have as many descriptors as are needed for
+  /// max_connections; where the system allows fewer, there are fewer connections.
   static Result<Server> listen(const ServerOptions& options);
   Server(Server&&) noexcept;
   Server& operator=(Server&&) noexcept;
@@ -49,8 +53,8 @@ class Server {
   Catalog& catalog();
   /// Serves until stop() is called.
   void run();
-  /// Ends run(): no new connection, idle ones are closed, responses under way are finished. May be called from any
-  /// thread and from a signal handler.
+  /// Ends run(): no new connection, idle ones are closed, responses under way are finished within the time of grace; a
+  /// second call ends it at once. May be called from any thread and from a signal handler.
   void stop();
 
  private:

@@ -80,7 +80,12 @@ struct RawResponse {
 /// A plain socket to a port of this machine; reads give up after five seconds.
 class RawConnection {
  public:
-  explicit RawConnection(uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  explicit RawConnection(uint16_t port, const char* from = "127.0.0.1")
+      : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    EXPECT_EQ(::inet_pton(AF_INET, from, &own.sin_addr), 1);
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&own), sizeof own), 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
@@ -117,16 +122,25 @@ class RawConnection {
     return receive(method != "HEAD");
   }
 
+  /// Reads so many bytes, fewer when the connection ends or the patience does.
+  std::string read(size_t bytes) {
+    while (pending_.size() < bytes)
+      if (!read_more(bytes - pending_.size())) break;
+    const std::string front = pending_.substr(0, bytes);
+    pending_.erase(0, front.size());
+    return front;
+  }
+
   /// True when the other side closes within the patience.
   bool ended() {
     while (read_more()) pending_.clear();
-    return last_read_ == 0;
+    return last_read_ == 0 || errno == ECONNRESET;
   }
 
  private:
-  bool read_more() {
+  bool read_more(size_t most = 65536) {
     char bytes[65536];
-    last_read_ = ::recv(socket_, bytes, sizeof bytes, 0);
+    last_read_ = ::recv(socket_, bytes, std::min(most, sizeof bytes), 0);
     if (last_read_ > 0) pending_.append(bytes, static_cast<size_t>(last_read_));
     return last_read_ > 0;
   }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/server/gzipped_files.h"
+
+#include <unistd.h>
+#include <zlib.h>
+
+#include <vector>
+
+namespace lightwell {
+namespace {
+
+constexpr uint64_t longest_file = 2u << 20;
+constexpr size_t most_bytes = 16u << 20;
+
+/// Empty when the file cannot be read or compressed.
+std::string gzip(const OpenFile& file) {
+  std::vector<uint8_t> plain(file.length());
+  if (::pread(file.descriptor(), plain.data(), plain.size(), 0) != static_cast<ssize_t>(plain.size())) return {};
+  z_stream stream{};
+  constexpr int gzip_window = 15 + 16, memory_level = 8;
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
+    return {};
+  std::string packed(deflateBound(&stream, plain.size()), '\0');
+  stream.next_in = plain.data();
+  stream.avail_in = static_cast<uInt>(plain.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const bool done = deflate(&stream, Z_FINISH) == Z_STREAM_END;
+  packed.resize(done ? stream.total_out : 0);
+  deflateEnd(&stream);
+  return packed;
+}
+
+}  // namespace
+
+std::shared_ptr<const std::string> GzippedFiles::content(const OpenFile& file) {
+  if (file.length() > longest_file) return nullptr;
+  const auto known = contents_.find(file.etag());
+  if (known != contents_.end()) return known->second;
+  std::string packed = gzip(file);
+  const bool worth_it = !packed.empty() && packed.size() < file.length();
+  const auto content = worth_it ? std::make_shared<const std::string>(std::move(packed)) : nullptr;
+  const size_t bytes = worth_it ? content->size() : sizeof(contents_);
+  // What was kept for files that have changed since goes, too.
+  if (bytes_ + bytes > most_bytes) {
+    contents_.clear();
+    bytes_ = 0;
+  }
+  bytes_ += bytes;
+  contents_.emplace(file.etag(), content);
+  return content;
+}
+
+}  // namespace lightwell
