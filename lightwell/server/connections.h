@@ -41,8 +41,8 @@ class Connection {
 };
 
 /// The open connections of a server: the idle ones, which wait for a request, and the busy ones. Where there are too
-/// many, those go that cost the least: who has been idle longest, then who takes its answer the slowest. Who takes 64 KB
-/// a second or more stays.
+/// many, those go that cost the least: who has been idle longest, then who takes its answer the slowest. Who takes 64
+/// KB a second or more stays.
 class Connections {
  public:
   /// How many may be open, in all and of one peer; 0 is any number.

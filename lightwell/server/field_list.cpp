@@ -31,8 +31,8 @@ std::vector<std::string_view> elements(std::string_view list, char mark) {
 }
 
 bool same_name(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, {}, [](unsigned char c) { return std::tolower(c); },
-                            [](unsigned char c) { return std::tolower(c); });
+  return std::ranges::equal(
+      a, b, {}, [](unsigned char c) { return std::tolower(c); }, [](unsigned char c) { return std::tolower(c); });
 }
 
 /// Whether a parameter is a weight of zero: "q=0", "q=0.000".

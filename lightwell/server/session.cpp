@@ -16,8 +16,8 @@ namespace {
 constexpr size_t longest_header = 8192;
 constexpr size_t longest_turn = 1u << 18;  // bytes sent for one connection before the others have their turn
 constexpr int most_unsent = 1 << 17;       // bytes that the system keeps ready for a connection, beside those under way
-constexpr std::chrono::seconds lingering(2);      // for a client that reads the last answer of a connection
-constexpr std::chrono::seconds judged_after(1);   // an exchange over a line of any length has brought something
+constexpr std::chrono::seconds lingering(2);     // for a client that reads the last answer of a connection
+constexpr std::chrono::seconds judged_after(1);  // an exchange over a line of any length has brought something
 
 /// A request names its host once; of HTTP/1.0 it need not (RFC 9112, 3.2).
 bool names_one_host(const http::request<http::empty_body>& request) {

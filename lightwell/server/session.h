@@ -24,8 +24,8 @@ struct Shared {
   std::function<void()> left = {};  ///< called when a session has gone
 };
 
-/// One connection: requests and their answers in turn. The handlers that wait for it keep it alive. While it waits for a
-/// request it holds no memory but its own.
+/// One connection: requests and their answers in turn. The handlers that wait for it keep it alive. While it waits for
+/// a request it holds no memory but its own.
 class Session final : public Connection, public std::enable_shared_from_this<Session> {
  public:
   Session(tcp::socket socket, const Peer& peer, Shared& shared);
@@ -54,9 +54,9 @@ class Session final : public Connection, public std::enable_shared_from_this<Ses
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   Clock::time_point idle_end_;
-  Clock::time_point began_;    ///< when the request under way did
-  std::optional<Pace> pace_;   ///< while an answer is sent
-  std::string head_;           ///< of the answer
+  Clock::time_point began_;   ///< when the request under way did
+  std::optional<Pace> pace_;  ///< while an answer is sent
+  std::string head_;          ///< of the answer
   size_t head_sent_ = 0;
   Answer answer_;
   uint64_t sent_ = 0;

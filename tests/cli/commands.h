@@ -35,7 +35,7 @@ class Commands : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   Outcome run(const std::string& arguments) const {
-    return run_in_shell("timeout 60 " LIGHTWELL_PROGRAM " " + arguments + redirected());
+    return run_in_shell("timeout 300 " LIGHTWELL_PROGRAM " " + arguments + redirected());
   }
   /// Sends a signal ("INT", "TERM") once the program has said `word` on stderr.
   Outcome interrupt(const std::string& arguments, const std::string& word, const std::string& signal) const {

@@ -17,7 +17,8 @@ Peer peer_at(const std::string& address) { return peer_of(asio::ip::make_address
 /// A connection that does nothing by itself.
 class Dummy final : public Connection {
  public:
-  Dummy(Connections& connections, const std::string& address) : Connection(peer_at(address)), connections_(connections) {
+  Dummy(Connections& connections, const std::string& address)
+      : Connection(peer_at(address)), connections_(connections) {
     connections_.enter(*this);
   }
   ~Dummy() override { connections_.leave(*this); }

@@ -23,7 +23,8 @@ TEST(FieldList, AcceptsGzip) {
   for (const char* list : {"gzip", "br, gzip", "deflate,GZIP;q=0.5", "x-gzip", "*", "identity, *;q=0.1",
                            "gzip ; q=0.001", "br;q=0, gzip;q=1.0"})
     EXPECT_TRUE(accepts_gzip(list)) << list;
-  for (const char* list : {"", "identity", "br", "gzip;q=0", "gzip; Q=0.000", "*, gzip;q=0", "*;q=0", "gzipped", ";", ","})
+  for (const char* list :
+       {"", "identity", "br", "gzip;q=0", "gzip; Q=0.000", "*, gzip;q=0", "*;q=0", "gzipped", ";", ","})
     EXPECT_FALSE(accepts_gzip(list)) << list;
 }
 
