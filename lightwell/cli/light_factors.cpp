@@ -25,7 +25,9 @@ std::vector<LightGroup> groups_of_pack(const OpenedPack& pack, const World& worl
   };
   for (const GridDescription& grid : pack.grids()) {
     LuminaireSet& luminaires = group(grid.contains.group);
-    if (grid.contains.environment) luminaires.insert(world.lights().environment_luminaire());
+    // A pack need not hold the picture of the sky whose light it has.
+    const int sky = world.lights().environment_luminaire();
+    if (grid.contains.environment && sky >= 0) luminaires.insert(sky);
   }
   const std::vector<Luminaire>& luminaires = world.lights().luminaires();
   for (const ClientLamp& lamp : pack.lamps()) {
