@@ -299,8 +299,8 @@ TEST(BakeLight, AdaptiveGridsAgreeWithTheTruth) {
   }
 }
 
-// Under sun and sky, with the ground a sheet above open air: 3.2 % in free space. On surfaces 5.3 %, three quarters of the
-// squares in 10 points of 128 beside columns, which stand in the sun's first bounce.
+// Under sun and sky, with the ground a sheet above open air: 3.2 % in free space. On surfaces 5.3 %, three quarters of
+// the squares in 10 points of 128 beside columns, which stand in the sun's first bounce.
 TEST(BakeLight, AdaptiveGridsAgreeWithTheTruthOutdoors) {
   const Scene scene = truth_scene("e_courtyard");
   const auto world = world_of(scene);
