@@ -70,7 +70,7 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
     auto grids = bake_light(**world, options, silent, statistics);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     if (!grids) return std::fprintf(stderr, "%s\n", grids.error().message().c_str()), false;
-    const LightField field(layers_of(std::move(*grids), {}, **world, {}));
+    const LightField field(layers_of(std::move(*grids)));
     const bool by_photons = !candidate.kind->node_by_node;
     std::printf("| %s | %s | %s | %.1f | %.1f | %.1f |\n", room, candidate.kind->name,
                 by_photons ? (std::to_string(candidate.photons / 1000000) + " M").c_str() : "-", seconds,

@@ -135,7 +135,12 @@ bench_curve() {
 
 bench_mesh() { show "$programs/mesh_bench" --benchmark_filter=/1000; }
 
-bench_light() { show "$programs/light_bench"; }
+# Costs of the light grid; and in the truth's rooms bytes and errors of each record.
+bench_light() {
+  show "$programs/light_bench"
+  [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
+  show python3 bench/records.py "$lightwell" "$out" "$shared"/truth/{a_cornell,b_tworooms,d_blob}.glb
+}
 
 bench_fetch() {
   local pack

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tracing photons through dragon-room without depositing them, compared with Embree alone on the same rays, in turns.
-// The counter `ratio` is Embree's time over ours.
+// Tracing photons through dragon-room without depositing them, and gathering its light, compared with Embree alone on
+// the same rays, in turns. The counter `ratio` is Embree's time over ours.
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
 #include <ctime>
 #include <memory>
 
+#include "lightwell/trace/gathering.h"
 #include "lightwell/trace/photons.h"
 
 namespace lightwell {
@@ -77,26 +78,69 @@ float intersect_alone(const TraceScene& trace, const std::vector<Ray>& rays) {
   return sum;
 }
 
+/// Processor time, so that the ratio also holds on a busy machine.
+template <typename Run>
+double processor_seconds(const Run& run) {
+  const std::clock_t start = std::clock();
+  benchmark::DoNotOptimize(run());
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
 void photons_against_embree(benchmark::State& state) {
   if (!room()) {
     state.SkipWithError("../shared/data/rooms/dragon-room.glb is not there");
     return;
   }
-  const auto seconds = [](auto&& run) {
-    const std::clock_t start = std::clock();  // processor time, so that the ratio also holds on a busy machine
-    benchmark::DoNotOptimize(run());
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  };
   double ours = 0, alone = 0;
   for (auto _ : state) {
-    ours += seconds([] { return walk_photons(*room()->world); });
-    alone += seconds([] { return intersect_alone(room()->world->surfaces(), room()->rays); });
+    ours += processor_seconds([] { return walk_photons(*room()->world); });
+    alone += processor_seconds([] { return intersect_alone(room()->world->surfaces(), room()->rays); });
   }
   const double rays = static_cast<double>(room()->rays.size()) * static_cast<double>(state.iterations());
   state.counters["ratio"] = alone / ours;
   state.counters["photon_rays_per_second"] = rays / ours;
   state.counters["embree_rays_per_second"] = rays / alone;
 }
+/// Rays into all directions from places spread over the room, as a grid's nodes send them.
+std::vector<Ray> gathering_rays(const World& world) {
+  constexpr int places = 400, rays_a_place = 256;
+  const Box3f box = world.surfaces().focus();
+  Random random(2, 0);
+  std::vector<Ray> rays;
+  for (int i = 0; i < places; i++) {
+    const Vec3f share{{random.uniform(), random.uniform(), random.uniform()}};
+    for (int k = 0; k < rays_a_place; k++) rays.push_back({box.lo + box.size() * share, sample_sphere(random)});
+  }
+  return rays;
+}
+
+/// Gathers along rays, and lists what it asked of Embree's tree: each ray that it followed.
+void gathering_against_embree(benchmark::State& state) {
+  if (!room()) {
+    state.SkipWithError("../shared/data/rooms/dragon-room.glb is not there");
+    return;
+  }
+  const World& world = *room()->world;
+  const std::vector<Ray> rays = gathering_rays(world);
+  const auto gather_all = [&] {
+    Random random(3, 0);
+    int followed = 0;
+    for (const Ray& ray : rays) followed += gather(world, ray, 0, random).rays;
+    return followed;
+  };
+  double ours = 0, alone = 0;
+  double followed = 0;
+  for (auto _ : state) {
+    ours += processor_seconds([&] { return followed = gather_all(); });
+    alone += processor_seconds([&] { return intersect_alone(world.surfaces(), rays); });
+  }
+  // Rays that gloss adds are as long as the others.
+  const double rays_each = static_cast<double>(rays.size());
+  state.counters["ratio"] = alone * (followed / rays_each) / ours;
+  state.counters["rays_followed"] = followed / rays_each;
+  state.counters["gathering_rays_per_second"] = followed * static_cast<double>(state.iterations()) / ours;
+}
+BENCHMARK(gathering_against_embree)->Unit(benchmark::kMillisecond)->Iterations(5);
 BENCHMARK(photons_against_embree)->Unit(benchmark::kMillisecond)->Iterations(5);
 
 }  // namespace

@@ -11,8 +11,8 @@
 // which is what Matrix4.decompose gives for (the object's matrix times a translation to the grid's first node), the
 // scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
 // in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the values. Red of texel (1, 0, 0) is
-// 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there; green is the
-// finest level of a grid with bricks, whose atlas is another.
+// 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there, and 2 more when
+// lookups are to be tricubic; green is the finest level of a grid with bricks, whose atlas is another.
 //
 // docs/decisions/011-cost-of-the-lookup.md tells what costs how much.
 
@@ -140,6 +140,54 @@ vec3 texelOfBrick( highp sampler3D probesSH, vec3 place, vec3 cells, float fines
 
 }
 
+// The texel in the first sub-volume for a place in cells of a grid of Lightwell's; `parts` is its texel (1, 0, 0).
+vec3 texelOfGrid( highp sampler3D probesSH, vec3 place, vec3 cells, vec4 parts ) {
+
+	if ( parts.g > 0.5 ) return texelOfBrick( probesSH, place, cells, parts.g, parts.a );
+	return clamp( place, vec3( 0.0 ), cells ) + vec3( 0.0, 0.0, 1.0 );
+
+}
+
+// The B-spline of third degree over the cells at a place, by eight lookups between the nodes (Sigg and Hadwiger, Fast Third-Order
+// Texture Filtering, GPU Gems 2, 2005): on each axis two, which stand for two nodes each.
+void fetchLightProbesTricubic( highp sampler3D probesSH, vec3 place, vec3 cells, vec4 parts, vec3 atlasSize, vec3 next ) {
+
+	float level = 1.0;
+	if ( parts.g > 0.5 ) {
+
+		vec3 within = clamp( place, vec3( 0.0 ), cells - 0.5 / exp2( parts.g ) );
+		level = exp2( texelFetch( probesSH, ivec3( within * exp2( parts.g ) / 4.0 ) + ivec3( 0, 0, 1 ), 0 ).a );
+
+	}
+
+	vec3 node = floor( place * level );
+	vec3 f = place * level - node;
+	vec3 w1 = ( 4.0 - 3.0 * f * f * ( 2.0 - f ) ) / 6.0;
+	vec3 w3 = f * f * f / 6.0;
+	vec3 before = ( 1.0 - f ) * ( 1.0 - f ) * ( 1.0 - f ) / 6.0 + w1;
+	vec3 behind = 1.0 - before;
+	vec3 near = ( node - 1.0 + w1 / before ) / level;
+	vec3 far = ( node + 1.0 + w3 / behind ) / level;
+	vec3 c[ 9 ] = vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	float weight = 0.0;
+
+	for ( int i = 0; i < 8; i ++ ) {
+
+		vec3 upper = vec3( float( i & 1 ), float( i >> 1 & 1 ), float( i >> 2 ) );
+		vec3 share = mix( before, behind, upper );
+		float own = share.x * share.y * share.z;
+		vec3 texel = texelOfGrid( probesSH, mix( near, far, upper ), cells, parts );
+		fetchLightProbes( probesSH, ( texel + 0.5 ) / atlasSize, next );
+		for ( int k = 0; k < 9; k ++ ) c[ k ] += own * lightProbeSample.c[ k ];
+		weight += own * lightProbeSample.weight;
+
+	}
+
+	lightProbeSample.c = c;
+	lightProbeSample.weight = weight;
+
+}
+
 vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
 
 	bool ours = isLightwellGrid( probesResolution );
@@ -148,6 +196,7 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 	vec3 normal = worldNormal;
 	vec3 node;
 	vec3 texel;
+	vec4 parts = vec4( 0.0 );
 	float subVolume = atlasSize.z / 7.0;
 
 	if ( ours ) {
@@ -155,25 +204,17 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 		// Surfaces of a stretched object keep the normals that they had unstretched: a normal is multiplied by the stretch, the
 		// ratio of the cells' sides in the world to those in the grid.
 		vec4 header = texelFetch( probesSH, ivec3( 0 ), 0 );
-		vec4 parts = texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 );
+		parts = texelFetch( probesSH, ivec3( 1, 0, 0 ), 0 );
 		bool bricks = parts.g > 0.5;
 		if ( bricks ) last = texelFetch( probesSH, ivec3( 2, 0, 0 ), 0 ).rgb;
 		lightProbeSample.turn = probesMax;
 		lightProbeSample.stretch = sizeOfGrid( probesResolution ) / ( last * header.rgb );
-		lightProbeSample.sky = parts.r > 0.5;
+		lightProbeSample.sky = mod( parts.r, 2.0 ) > 0.5;
 		normal = directionInGrid( worldNormal );
 		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last + header.a * normal;
 
-		if ( bricks ) {
-
-			texel = texelOfBrick( probesSH, node, last, parts.g, parts.a );
-			subVolume = parts.b;
-
-		} else {
-
-			texel = clamp( node, vec3( 0.0 ), last ) + vec3( 0.0, 0.0, 1.0 );
-
-		}
+		if ( bricks ) subVolume = parts.b;
+		texel = texelOfGrid( probesSH, node, last, parts );
 
 	} else {
 
@@ -182,7 +223,9 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 
 	}
 
-	fetchLightProbes( probesSH, ( texel + 0.5 ) / atlasSize, vec3( 0.0, 0.0, subVolume / atlasSize.z ) );
+	vec3 next = vec3( 0.0, 0.0, subVolume / atlasSize.z );
+	if ( parts.r > 1.5 ) fetchLightProbesTricubic( probesSH, node, last, parts, atlasSize, next );
+	else fetchLightProbes( probesSH, ( texel + 0.5 ) / atlasSize, next );
 	lightProbeSample.reflects = ours;
 	if ( ! ours ) lightProbeSample.weight = 1.0;
 	return evaluateLightProbes( normal );

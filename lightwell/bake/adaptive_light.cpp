@@ -102,6 +102,21 @@ void quieten(BrickPoints& points, const PointNoise& noise, const std::vector<int
   }
 }
 
+/// The noise of many nodes together, those of bricks as those of the grid.
+class NoiseOfAll {
+ public:
+  /// `noise` as in NodeSurroundings.
+  void add(const Moments& moments, float noise) {
+    const double size = static_cast<double>(size_of(moments));
+    squares_ += size * size * static_cast<double>(noise * noise);
+    sizes_ += size * size;
+  }
+  float relative() const { return sizes_ > 0 ? static_cast<float>(std::sqrt(squares_ / sizes_)) : 0; }
+
+ private:
+  double squares_ = 0, sizes_ = 0;
+};
+
 size_t stream_bytes(const LightGrid& grid) {
   const auto stream = encode_lattice(grid);
   if (!stream) return std::numeric_limits<size_t>::max();
@@ -121,21 +136,39 @@ AdaptiveLight::AdaptiveLight(const GatheredLight& light, const GridShape& shape,
       threads_(threads),
       tree_(shape.cells()),
       brick_nodes_(tree_),
-      sides_(light.world().surfaces(), light.box(), followed_points, followed_seed) {
+      sides_(light.world().surfaces(), light.box(), followed_points, followed_seed),
+      links_(light.world().surfaces(), light.box()) {
+  follow();
+}
+
+void AdaptiveLight::follow() {
   sides_.follow(shape_, tree_, followed_offset, threads_);
+  links_.follow(shape_, tree_, threads_);
+  // A lookup on a wall reaches the node behind it where it reaches the one before it, though none of those that were
+  // followed may have done so.
+  behind_.clear();
+  links_.for_each_blocked(shape_, tree_, [&](uint64_t a, uint64_t b) {
+    const float of_a = sides_.balance(a), of_b = sides_.balance(b);
+    if (of_a > 0 && of_b <= 0) behind_.insert(b);
+    if (of_b > 0 && of_a <= 0) behind_.insert(a);
+  });
 }
 
 bool AdaptiveLight::valid(const NodeRule& rule, float insides, int level, const Vec3i& corner) const {
-  return insides <= rule.most_insides && !(rule.by_lookups && sides_.across(lattice_place(level, corner)));
+  if (insides > rule.most_insides) return false;
+  const uint64_t place = lattice_place(level, corner);
+  return !rule.by_lookups || !(sides_.across(place) || behind_.contains(place));
 }
 
 LightGrid AdaptiveLight::grid(const NodeRule& rule) const {
   LightGrid grid;
   grid.shape = shape_;
   grid.moments = nodes_.moments;
+  NoiseOfAll noise_of_all;
   for (size_t node = 0; node < nodes_.insides.size(); node++) {
     grid.valid.push_back(valid(rule, nodes_.insides[node], 0, shape_.node(node)));
     if (!grid.valid.back()) grid.moments[node] = {};
+    if (!nodes_.noise.empty()) noise_of_all.add(grid.moments[node], nodes_.noise[node]);
   }
   quieten(grid, nodes_.noise);
   fill_invalid(grid);
@@ -152,11 +185,14 @@ LightGrid AdaptiveLight::grid(const NodeRule& rule) const {
       const bool used = valid(rule, node.insides, cube.level, cube.corner(point));
       nodes[static_cast<size_t>(point)] = {used ? node.moments : Moments{}, node_weight(used)};
       noise[static_cast<size_t>(point)] = node.noise;
+      if (used) noise_of_all.add(node.moments, node.noise);
     }
     place_brick(grid, brick, nodes);
     quieten(grid.bricks[brick], noise, finer);
     fill_invalid(grid.bricks[brick], shape_.cell);
   }
+  grid.links = links_.of(grid);
+  grid.noise = noise_of_all.relative();
   return grid;
 }
 
@@ -199,7 +235,7 @@ Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& p
                                                                              found[i].noise};
     nodes_.rays += found[i].rays;
   }
-  sides_.follow(shape_, tree_, followed_offset, threads_);
+  follow();
   return {};
 }
 

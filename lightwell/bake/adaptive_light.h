@@ -3,11 +3,13 @@
 
 #include <chrono>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "lightwell/bake/estimator.h"
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/bake/light_error.h"
 #include "lightwell/bake/lookup_sides.h"
+#include "lightwell/bake/wall_links.h"
 #include "lightwell/base/progress.h"
 
 namespace lightwell {
@@ -67,6 +69,7 @@ class AdaptiveLight {
 
   std::vector<Brick> worst_bricks(const TestPoints& points, const LightGrid& grid, size_t count) const;
   Result<void> divide(const std::vector<Brick>& bricks, Progress& progress);
+  void follow();
   void keep_within(const RefinementOptions& options, const NodeRule& rule);
   LightGrid best_grid(const TestPoints& points, NodeRule& rule) const;
 
@@ -80,6 +83,8 @@ class AdaptiveLight {
   BrickNodes brick_nodes_;
   std::unordered_map<uint64_t, Node> gathered_;  // nodes of bricks, by their lattice_place()
   LookupSides sides_;
+  WallLinks links_;
+  std::unordered_set<uint64_t> behind_;  // nodes that a wall hides from those that lookups reach
 };
 
 }  // namespace lightwell

@@ -65,6 +65,7 @@ struct EstimatorOptions {
   uint64_t seed = 1;
   /// The luminaires whose direct light goes into the grid as well.
   LuminaireSet contained;
+  bool reflected = true;  ///< whether what surfaces reflect is gathered
   int threads = 0;  ///< 0: all processors
   /// Of what was gathered before this run, if any.
   NodeJournal* journal = nullptr;

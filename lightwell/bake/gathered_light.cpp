@@ -35,6 +35,7 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
       space_(scene.space),
       cache_(scene.cache),
       contained_(options.contained),
+      reflected_(options.reflected),
       box_(scene.box),
       seed_(options.seed),
       journal_(options.journal) {
@@ -45,7 +46,7 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
   dark_ = area > 0 ? 18 * negligible * mean_of_channels(world_.lights().power()) / area : 0;
   if (journal_ == nullptr) return;
   // The light of the surfaces tells apart scenes, lamps, materials and seeds.
-  inputs_ = cache_.fingerprint(seed_);
+  inputs_ = 2 * cache_.fingerprint(seed_) + reflected_;
   for (size_t i = 0; i < world_.lights().luminaires().size(); i++)
     inputs_ = inputs_ * 31 + contained_.contains(static_cast<int>(i));
 }
@@ -80,7 +81,7 @@ NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, in
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
     met += gathering.meets_surface;
     backs += gathering.meets_surface && !gathering.first.front;
-    const Vec3f radiance = cache_.reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
+    const Vec3f radiance = reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
     add(direction, radiance * solid_angle);
   }
   found.insides = static_cast<float>(insides) / static_cast<float>(rays);
@@ -172,7 +173,7 @@ Received GatheredLight::received(const Vec3f& position, const Vec3f& normal, int
         gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, near * cache_.near(), random);
     const Vec3f direction = frame.to_world(up);
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
-    sum += (cache_.reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
+    sum += (reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
   }
   sample_luminaires(position, normal, random, [&](const Arrival& arrival) {
     const float cosine = dot(normal, arrival.direction);

@@ -35,6 +35,7 @@ class GatheredLight {
 
  private:
   NodeSurroundings gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const;
+  Vec3f reflected(const Gathering& gathering) const { return reflected_ ? cache_.reflected(gathering) : Vec3f{}; }
   /// The radiance that the contained luminaires send straight along a ray, weighted beside samples of the luminaires;
   /// `density` is that of the rays, 1/sr.
   Vec3f emitted(const Vec3f& position, const Vec3f& direction, const Gathering& gathering, float density) const;
@@ -49,6 +50,7 @@ class GatheredLight {
   const FreeSpace& space_;
   const SurfaceCache& cache_;
   const LuminaireSet contained_;
+  const bool reflected_;
   const Box3f box_;
   const uint64_t seed_;
   NodeJournal* const journal_;

@@ -8,6 +8,7 @@
 
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/bake/light_error.h"
+#include "lightwell/bake/light_parts.h"
 #include "lightwell/bake/thin_walls.h"
 #include "lightwell/base/assert.h"
 #include "lightwell/base/parallel.h"
@@ -159,29 +160,34 @@ struct Place {
   float cell = 0;  ///< of the light of surfaces, metres
 };
 
-/// The light of a group at the nodes of a grid, which holds that of all.
-Result<LightGrid> light_of_group(const Place& place, const LightGrid& all, const LuminaireSet& luminaires,
-                                 const LightBakeOptions& options, Progress& progress, uint64_t& rays) {
-  const std::unique_ptr<const World> world = place.world.lit_by(luminaires);
-  LW_TRY(cache, light_surfaces(*world, place.box, all.shape, place.cell, options.estimator, progress));
+/// The light at the nodes of a grid that holds that of all.
+Result<LightGrid> light_of_part(const Place& place, const LightGrid& all, const LightPart& part,
+                                const LightBakeOptions& options, Progress& progress, uint64_t& rays) {
+  const std::unique_ptr<const World> world = place.world.lit_by(part.luminaires);
+  LightBakeOptions of_part = options;
+  of_part.estimator.contained = part.contained;
+  of_part.estimator.reflected = part.reflected;
+  LW_TRY(cache, light_surfaces(*world, place.box, all.shape, place.cell, of_part.estimator, progress));
   const BakeScene scene{*world, place.space, cache, place.box};
-  LW_TRY(nodes, light_nodes(scene, all.shape, options, progress));
+  LW_TRY(nodes, light_nodes(scene, all.shape, of_part, progress));
   rays += cache.rays() + nodes.rays;
-  return AdaptiveLight::relit(all, GatheredLight(scene, options.estimator), std::move(nodes), options.estimator.threads,
+  return AdaptiveLight::relit(all, GatheredLight(scene, of_part.estimator), std::move(nodes), options.estimator.threads,
                               progress);
 }
 
-/// The same grid in the light of each group. `all` becomes their sum, which is what is looked up in the end.
-Result<std::vector<BakedGrid>> light_by_groups(const Place& place, LightGrid& all, const LightBakeOptions& options,
-                                               Progress& progress, uint64_t& rays) {
+/// The same grid in the light of each part. `all` becomes their sum, which is what is looked up in the end.
+Result<std::vector<BakedGrid>> light_by_parts(const Place& place, LightGrid& all, const LightBakeOptions& options,
+                                              Progress& progress, uint64_t& rays) {
+  const std::vector<LightPart> parts =
+      light_parts(place.world, options.estimator.contained, options.groups, options.sky_apart);
   std::vector<BakedGrid> grids;
-  if (options.groups.size() <= 1) {
-    grids.push_back({.grid = all, .group = {}});
+  if (parts.size() == 1) {
+    grids.push_back({.grid = all, .contains = contents_of(parts.front(), place.world)});
     return grids;
   }
-  for (const LightGroup& group : options.groups) {
-    LW_TRY(grid, light_of_group(place, all, group.luminaires, options, progress, rays));
-    grids.push_back({.grid = std::move(grid), .group = group.name});
+  for (const LightPart& part : parts) {
+    LW_TRY(grid, light_of_part(place, all, part, options, progress, rays));
+    grids.push_back({.grid = std::move(grid), .contains = contents_of(part, place.world)});
   }
   all = grids.front().grid;
   for (size_t i = 1; i < grids.size(); i++) add_light(all, grids[i].grid);
@@ -232,7 +238,7 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   }
   statistics.nodes += best.nodes();
   LightGrid all = best.take();
-  LW_TRY(grids, light_by_groups({world, space, box, cell}, all, options, progress, statistics.rays));
+  LW_TRY(grids, light_by_parts({world, space, box, cell}, all, options, progress, statistics.rays));
   // Points that had no say in what was chosen, and that know what is near them without the cache's blur.
   TestPointOptions judging = testing;
   judging.seed ^= 0x0dd5;
@@ -247,20 +253,9 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
 
 }  // namespace
 
-std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids, const LuminaireSet& contained,
-                                         const World& world, std::span<const LightGroup> groups) {
-  const std::vector<Luminaire>& luminaires = world.lights().luminaires();
+std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids) {
   std::vector<LightField::Layer> layers;
-  for (BakedGrid& baked : grids) {
-    GridContents contents{.group = baked.group};
-    const auto group = std::ranges::find(groups, baked.group, &LightGroup::name);
-    for (size_t i = 0; i < luminaires.size(); i++) {
-      const auto number = static_cast<int>(i);
-      if (!contained.contains(number) || (group != groups.end() && !group->luminaires.contains(number))) continue;
-      (luminaires[i].kind() == Luminaire::Kind::environment ? contents.environment : contents.lamps) = true;
-    }
-    layers.push_back({std::move(baked.grid), std::move(contents), baked.priority});
-  }
+  for (BakedGrid& baked : grids) layers.push_back({std::move(baked.grid), std::move(baked.contains), baked.priority});
   return layers;
 }
 

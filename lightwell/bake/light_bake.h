@@ -27,13 +27,15 @@ struct LightBakeOptions {
   const EstimatorKind* method = &estimators().front();
   /// Groups of luminaires of which each is to have grids of its own; of one or none all light is in the same ones.
   std::span<const LightGroup> groups{};
+  /// Whether the environment's own light, which `contained` holds, has grids of its own apart from what is reflected.
+  bool sky_apart = false;
   EstimatorOptions estimator;
 };
 
 /// A grid over a part of a scene.
 struct BakedGrid {
   LightGrid grid;
-  std::string group;  ///< of the luminaires whose light it holds; empty: of all
+  GridContents contains{};
   /// Where grids overlap, that of the highest priority is looked up.
   int priority = 0;
   /// Of all groups together: root mean square at test points of surfaces, as a share of the mean irradiance
@@ -41,10 +43,8 @@ struct BakedGrid {
   float estimated_error = 0;
 };
 
-/// The grids with what they hold, in the same order: the bounced light of their groups, and the direct light of those
-/// of their luminaires that are `contained`.
-std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids, const LuminaireSet& contained,
-                                         const World& world, std::span<const LightGroup> groups);
+/// The grids with what they hold, in the same order.
+std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids);
 
 struct LightBakeStatistics {
   uint64_t rays = 0;
@@ -57,7 +57,8 @@ struct LightBakeStatistics {
 };
 
 /// Bakes the light of a world: into a grid over its focus, and where that is not all of the world into another one over
-/// all of it, of lower priority. With groups there is such a grid of each group, all over the same nodes. Each bake
+/// all of it, of lower priority. With groups there is such a grid of each group, all over the same nodes; with the sky
+/// apart, one more of each group that has its light. Each bake
 /// places the nodes, determines the free space, and lets an estimator fill in the light. The same world and options
 /// give the same grids for any number of threads, unless the seconds end it. Fails when nothing shines, when the method
 /// cannot fill an adaptive grid, when a grid has more nodes than a pack can hold, or when `progress` is cancelled.

@@ -84,9 +84,9 @@ void LookupSides::follow(const GridShape& shape, const BrickTree& tree, float mo
     for (const Reach& reach : lookup) balance_[reach.place] += reach.weight;
 }
 
-bool LookupSides::across(uint64_t place) const {
+float LookupSides::balance(uint64_t place) const {
   const auto found = balance_.find(place);
-  return found != balance_.end() && found->second < 0;
+  return found != balance_.end() ? found->second : 0;
 }
 
 }  // namespace lightwell

@@ -23,8 +23,10 @@ class LookupSides {
 
   /// Follows the points' lookups in a grid of these cells, shifted by 0 to `most_offset` cells.
   void follow(const GridShape& shape, const BrickTree& tree, float most_offset, int threads);
+  /// The weight of the lookups that reach a node without a surface between, less that of those that do so through one.
+  float balance(uint64_t place) const;
   /// Whether more of the lookups' weight reaches a node through surfaces than without; false where none reaches it.
-  bool across(uint64_t place) const;
+  bool across(uint64_t place) const { return balance(place) < 0; }
 
  private:
   struct Point {

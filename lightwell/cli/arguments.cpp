@@ -83,6 +83,9 @@ void add_light_level_options(CLI::App& command, LightLevel& level) {
   add_number(command, "--light-level", level.share, {0, 1}, "Of a pack: share of the light grid's nodes, 0 to 1")
       ->default_str("1");
   add_fill_option(command, level.fill, "How the other nodes are filled");
+  add_choice<LightLookup>(command, "--lookup", level.lookup,
+                          {{"trilinear", LightLookup::trilinear}, {"tricubic", LightLookup::tricubic}},
+                          "How the light between nodes is found: tricubic has no creases, but leaks more");
 }
 
 Result<Vec3f> parse_color(const std::string& text) {

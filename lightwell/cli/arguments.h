@@ -39,7 +39,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
 /// Adds --level, the share of a pack's faces, or --fill, how missing nodes of its light grid are filled.
 void add_level_option(CLI::App& command, MeshLevel& level, const std::string& help);
 void add_fill_option(CLI::App& command, Fill& fill, const std::string& help);
-/// Adds --light-level, the share of a pack's light, and --fill.
+/// Adds --light-level, the share of a pack's light, --fill and --lookup.
 void add_light_level_options(CLI::App& command, LightLevel& level);
 
 /// Reads "R,G,B", three numbers that are not negative.

@@ -21,10 +21,11 @@ struct Options {
   std::string output;
   PackOptions pack;
   LightNodeOrder order = LightNodeOrder::lattice;
+  LightRecord record = LightRecord::moments;
   std::optional<double> target_error;  // percent
   uint64_t budget = 0;                 // bytes; 0: not said
   std::optional<double> stop_after;    // seconds
-  bool preview = false, resume = false;
+  bool preview = false, resume = false, sky_apart = false;
 };
 
 /// What --preview stands for: enough to see whether a scene comes out right.
@@ -107,6 +108,7 @@ void close_journal(const Options& options, Bake& bake) {
 LightBakeOptions light_options(const Options& options, const Bake& bake) {
   LightBakeOptions light = options.scene.light(bake.plan.contained);
   light.groups = bake.groups;
+  light.sky_apart = options.sky_apart;
   // The stratified slices of S08 are those of a regular grid.
   if (options.order == LightNodeOrder::slices && !options.scene.nodes) light.nodes = SceneOptions::regular;
   if (options.target_error) light.target_error = static_cast<float>(*options.target_error / 100);
@@ -136,12 +138,13 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   bake.light.lamps = bake.plan.client;
   PackGrid stated;
   stated.order = options.order;
+  stated.record = options.record;
   stated.seed = options.scene.import.seed;
   LW_TRY(camera, choose_camera(world, ""));
   bake.camera = camera;
   std::vector<float> errors;
   for (const BakedGrid& grid : grids) errors.push_back(grid.estimated_error);
-  bake.field = LightField(layers_of(std::move(grids), contained, world, bake.groups));
+  bake.field = LightField(layers_of(std::move(grids)));
   if (is_dark(bake.field)) bake.report.warn("no light reaches the free space of the scene: its light grid is black");
   for (size_t i = 0; i < errors.size(); i++) {
     const LightField::Layer& layer = bake.field.layers()[i];
@@ -192,6 +195,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
       {"triangles", bake.pack_statistics.triangles},
       {"vertices", bake.pack_statistics.vertices},
       {"nodes", bake.light_statistics.nodes},
+      {"invalid_nodes", bake.light_statistics.invalid_nodes},
       {"photons", bake.photons},
       {"rays", bake.light_statistics.rays},
       {"seconds",
@@ -238,6 +242,13 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_choice<LightNodeOrder>(
       *command, "--order", options->order, {{"lattice", LightNodeOrder::lattice}, {"slices", LightNodeOrder::slices}},
       "How the light grid is streamed: from coarse to fine, or some nodes of every slice of a regular grid");
+  add_choice<LightRecord>(*command, "--record", options->record,
+                          {{"moments", LightRecord::moments},
+                           {"shared-exponent", LightRecord::shared_exponent},
+                           {"floats", LightRecord::floats},
+                           {"direction-colour", LightRecord::direction_colour},
+                           {"direction-magnitude", LightRecord::direction_magnitude}},
+                          "Of --order lattice: how the light of a node is written (docs/light.md section 6)");
   add_number(*command, "--target-error", options->target_error, {0, 100},
              "Of --grid auto: the error of the irradiance, root mean square in percent, at which cells are fine enough")
       ->default_str("1");
@@ -248,6 +259,8 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_number(*command, "--stop-after", options->stop_after, {0, 1e9},
              "Of --grid auto: seconds after which the light is refined no further; what there is, is written");
   command->add_flag("--preview", options->preview, "A first light in seconds: fewer photons, and --stop-after 2");
+  command->add_flag("--sky-apart", options->sky_apart,
+                    "Keep the sky's own light in a grid apart from what surfaces reflect");
   command->add_flag("--resume", options->resume,
                     "Keep the light of each node in PACK.journal, and go on with what an interrupted run left there");
   command->footer(

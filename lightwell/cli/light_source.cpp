@@ -11,6 +11,7 @@ Result<LightField> light_of_pack(const OpenedPack& pack, const LightLevel& level
   std::vector<LightField::Layer> layers;
   for (const GridDescription& described : pack.grids()) {
     LW_TRY(grid, unpack_light(pack.reader(), described.stream, level));
+    grid.lookup = level.lookup;
     layers.push_back({std::move(grid), described.contains, described.priority});
   }
   return LightField(std::move(layers));
@@ -40,7 +41,8 @@ Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& option
   LightBakeOptions light = options.light(contained);
   light.groups = groups;
   LW_TRY(grids, bake_light(world, light, progress, statistics));
-  return LightField(layers_of(std::move(grids), contained, world, groups));
+  for (BakedGrid& baked : grids) baked.grid.lookup = level.lookup;
+  return LightField(layers_of(std::move(grids)));
 }
 
 }  // namespace lightwell

@@ -69,6 +69,19 @@ struct BrickPoint {
 };
 using BrickPoints = std::array<BrickPoint, Brick::points>;
 
+/// How the light between nodes is found: the mean of the eight around, or the B-spline of third degree over the 64
+/// around, which has no creases on the borders of cells, but sees farther through thin walls.
+enum class LightLookup : uint8_t { trilinear, tricubic };
+
+/// Between which neighbours of a grid a surface stands: what is known of a node beyond it says nothing of this one.
+/// A node has a bit for +x, +y and +z, 1 << axis, set where its link to the next node of its level is blocked; links of
+/// invalid nodes are open. Both lists are empty where nothing is known.
+struct Links {
+  using Points = std::array<uint8_t, Brick::points>;
+  std::vector<uint8_t> nodes;  ///< of the grid's own
+  std::vector<Points> bricks;  ///< of the points of bricks, those to other points of the brick
+};
+
 /// The irradiance vector grid of S08 (Pacanowski, Granier et al., "Efficient Streaming of 3D Scenes with Complex
 /// Geometry and Complex Lighting", Web3D 2008, section 3) and R09 (Pacanowski et al., "Volumetric Vector-Based
 /// Representation for Indirect Illumination Caching", INRIA RR-6983, 2009), stored as moments, with the validity of
@@ -82,14 +95,22 @@ struct LightGrid {
                                  ///< section 5), in bricks too: light goes over from one into the other without a seam
   BrickTree tree;                ///< empty in a regular grid
   std::vector<BrickPoints> bricks;  ///< the points of the tree's bricks: see place_brick
+  Links links;
+  LightLookup lookup = LightLookup::trilinear;
+  float noise = 0;  ///< that its nodes are likely to have, root mean square, a share of the light; 0: not known
 
   /// Irradiance (W/m2, RGB) for a unit direction at a point of a surface of unit normal `offset_normal`. Interpolates
-  /// trilinearly between the eight nodes around point + normal_offset * cell * offset_normal, those of the finest brick
-  /// there, weighted by node_weight. The direction is the normal for diffuse reflection and the mirrored view direction
-  /// for specular reflection. Points outside are clamped to the grid.
+  /// between the nodes around point + normal_offset * cell * offset_normal, those of the finest brick there, by
+  /// `lookup`, weighted by node_weight. The direction is the normal for diffuse reflection and the mirrored view
+  /// direction for specular reflection. Points outside are clamped to the grid.
   Vec3f irradiance(const Vec3f& point, const Vec3f& offset_normal, const Vec3f& direction) const;
   /// The same for diffuse reflection, in the direction of the normal.
   Vec3f irradiance(const Vec3f& point, const Vec3f& normal) const { return irradiance(point, normal, normal); }
+
+ private:
+  struct Sum;
+  Sum trilinear(const Vec3f& place) const;
+  Sum tricubic(const Vec3f& place) const;
 };
 
 /// The weight of a node in lookups and averages: 1 when it is valid, else 2^-13. That is small enough for the inside of

@@ -42,10 +42,10 @@ class BundleEncoder {
  public:
   BundleEncoder(const LightGrid& grid, const LatticeLayout& layout)
       : grid_(grid),
-        steps_(layout.steps, layout.scale),
         field_(layout),
         numbers_(numbers_in(grid, layout.tree)),
-        tree_(layout.tree) {}
+        tree_(layout.tree),
+        linked_(!layout.links.empty()) {}
 
   std::vector<LightBundle> encode() {
     std::vector<LightBundle> bundles;
@@ -75,69 +75,97 @@ class BundleEncoder {
 
  private:
   void encode_node(ModelWriter& writer, const LatticeNode& place) {
-    const Moments& moments = grid_.moments[place.node];
-    const LatticeExpectation expected = field_.expect(place);
-    LatticeValue value = steps_.encode(moments);
-    value.valid = grid_.valid[place.node];
-    count(value, expected, moments, 1);
-    coder_.code(writer, value, expected, steps_);
-    field_.node(place.node) = value;
+    encode_light(writer, field_.node(place.node), grid_.moments[place.node], grid_.valid[place.node] != 0,
+                 field_.expect(place), 1);
   }
 
   void encode_brick(ModelWriter& writer) {
-    const BrickPoints& points = grid_.bricks[numbers_[brick_]];
+    const uint32_t number = numbers_[brick_];
     const double size = std::ldexp(1.0, -3 * tree_.bricks()[brick_].level);
-    field_.set_brick(brick_, [&](LatticeValue& value, const LatticeExpectation& expected, int point) {
-      const BrickPoint& light = points[static_cast<size_t>(point)];
-      value = steps_.encode(light.moments);
-      value.valid = light.weight > node_weight(false);
-      count(value, expected, light.moments, size);
-      coder_.code(writer, value, expected, steps_);
+    field_.set_brick(brick_, [&](std::span<int32_t> numbers, LatticeParents& parents, int point) {
+      if (linked_) encode_links(writer, grid_.links.bricks[number], parents, point);
+      const BrickPoint& light = grid_.bricks[number][static_cast<size_t>(point)];
+      encode_light(writer, numbers, light.moments, light.weight > node_weight(false),
+                   LatticeExpectation(field_.record(), parents), size);
     });
     brick_++;
   }
 
-  void count(const LatticeValue& value, const LatticeExpectation& expected, const Moments& moments, double size) {
-    if (!value.valid) return;
-    whole_ += size * squared_difference(moments, {});
-    mended_ += size * squared_difference(moments, steps_.decode(expected.value()));
+  void encode_links(ModelWriter& writer, const Links::Points& links, LatticeParents& parents, int point) {
+    const std::vector<BrickParent>& around = brick_parents(point);
+    for (size_t i = 0; i < around.size(); i++)
+      parents.all()[i].blocked = (links[static_cast<size_t>(around[i].first)] >> around[i].axis & 1) != 0;
+    coder_.code_links(writer, parents, field_.record().numbers().size());
+  }
+
+  void encode_light(ModelWriter& writer, std::span<int32_t> numbers, const Moments& moments, bool valid,
+                    const LatticeExpectation& expected, double size) {
+    if (valid) {
+      expected.fill(numbers);  // what was shown before
+      whole_ += size * squared_difference(moments, {});
+      mended_ += size * squared_difference(moments, field_.record().decode(numbers));
+      field_.record().encode(moments, numbers);
+    }
+    numbers.back() = valid;
+    coder_.code(writer, field_.record(), numbers, expected);
   }
 
   const LightGrid& grid_;
-  const LatticeSteps steps_;
   LatticeField field_;
   LatticeCoder coder_;
   const std::vector<uint32_t> numbers_;
   const BrickTree& tree_;
+  const bool linked_;
   uint32_t brick_ = 0;
   double mended_ = 0, whole_ = 0;
 };
 
 /// The corners, each told by how it differs from the one before.
 std::vector<uint8_t> write_corners(const LatticeLayout& layout) {
-  const LatticeSteps steps(layout.steps, layout.scale);
+  const std::unique_ptr<const LatticeRecord> record = layout.make_record();
   ModelWriter writer;
   LatticeCoder coder;
-  LatticeValue before{.v = {}, .valid = true};
-  for (LatticeValue corner : layout.corners) {
-    const LatticeValue* parent = &before;
-    coder.code(writer, corner, LatticeExpectation({&parent, 1}), steps);
-    before = corner;
+  LatticeNumbers corners = layout.corners, first(1, record->numbers().size());
+  first[0].back() = 1;
+  std::span<int32_t> before = first[0];
+  for (size_t i = 0; i < 8; i++) {
+    LatticeParents parents;
+    parents.add({before.data()});
+    coder.code(writer, *record, corners[i], LatticeExpectation(*record, parents));
+    before = corners[i];
   }
   return writer.finish();
+}
+
+/// The corners' numbers. Of an invalid one they are those of the valid one before.
+LatticeNumbers corners_of(const LightGrid& grid, const LatticeRecord& record) {
+  const std::array<size_t, 8> nodes = corner_nodes(grid.shape);
+  LatticeNumbers corners(nodes.size(), record.numbers().size()), before(1, record.numbers().size());
+  for (size_t i = 0; i < nodes.size(); i++) {
+    if (grid.valid[nodes[i]]) record.encode(grid.moments[nodes[i]], before[0]);
+    std::ranges::copy(before[0], corners[i].begin());
+    corners[i].back() = grid.valid[nodes[i]];
+  }
+  return corners;
 }
 
 }  // namespace
 
 void LatticeLayout::write(ByteWriter& writer) const {
-  write_shape(writer, shape);
-  writer.u16(static_cast<uint16_t>(steps));
-  writer.f32(normal_offset);
-  writer.f32(scale);
+  write_head(writer);
   const std::vector<uint8_t> bricks = tree.empty() ? std::vector<uint8_t>() : tree.write();
   writer.u32(static_cast<uint32_t>(bricks.size()));
   writer.append(bricks);
+  if (!links.empty()) {
+    writer.u32(static_cast<uint32_t>(links.size()));
+    writer.append(links);
+  }
   writer.append(write_corners(*this));
+}
+
+int steps_for(const LightGrid& grid) {
+  constexpr float hiding = 0.025f;
+  return grid.noise > hiding ? 16 : 32;
 }
 
 Result<LatticeStream> encode_lattice(const LightGrid& grid, const LatticeStreamOptions& options) {
@@ -147,17 +175,11 @@ Result<LatticeStream> encode_lattice(const LightGrid& grid, const LatticeStreamO
   layout.shape = grid.shape;
   layout.normal_offset = grid.normal_offset;
   layout.scale = light_scale(grid);
-  layout.steps = options.steps;
+  layout.record = options.record;
+  layout.steps = options.steps > 0 ? options.steps : steps_for(grid);
   layout.tree = grid.tree.ordered();
-  const LatticeSteps steps(layout.steps, layout.scale);
-  const std::array<size_t, 8> corners = corner_nodes(grid.shape);
-  LatticeValue before{.v = {}, .valid = true};
-  for (size_t i = 0; i < corners.size(); i++) {
-    LatticeValue& corner = layout.corners[i];
-    if (grid.valid[corners[i]]) before = steps.encode(grid.moments[corners[i]]);
-    corner = before;
-    corner.valid = grid.valid[corners[i]];
-  }
+  layout.links = write_links(grid);
+  layout.corners = corners_of(grid, *layout.make_record());
   stream.bundles = BundleEncoder(grid, layout).encode();
   return stream;
 }

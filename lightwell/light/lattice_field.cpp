@@ -5,43 +5,81 @@
 #include "lightwell/light/lattice_stream.h"
 
 namespace lightwell {
+namespace {
+
+std::vector<BrickParent> parents_of(int point) {
+  std::vector<BrickParent> parents;
+  const Vec3i local = Brick::local(point);
+  for (int axis = 0; axis < 3; axis++) {
+    if (local[axis] % 2 == 0) continue;
+    for (const int step : {-1, 1}) {
+      Vec3i place = local;
+      place[axis] += step;
+      const int parent = Brick::point(place);
+      parents.push_back({parent, axis, step < 0 ? parent : point});
+    }
+  }
+  return parents;
+}
+
+}  // namespace
 
 LatticeField::LatticeField(const LatticeLayout& layout)
-    : tree_(layout.tree),
+    : record_(layout.make_record()),
+      tree_(layout.tree),
       grid_nodes_(layout.shape.nodes),
       order_(lattice_order(layout.shape.nodes)),
       nodes_(layout.tree),
-      values_(layout.shape.count()),
-      bricks_(layout.tree.bricks().size()),
+      values_(layout.shape.count(), record_->numbers().size()),
+      points_(layout.tree.bricks().size() * Brick::points, record_->numbers().size()),
       finer_(finer_points()) {
-  for (size_t i = 0; i < layout.corners.size(); i++) values_[order_[i].node] = layout.corners[i];
+  for (size_t i = 0; i < 8; i++) std::ranges::copy(layout.corners[i], node(order_[i].node).begin());
+  if (layout.links.empty()) return;
+  links_.nodes = read_links(grid_nodes_, layout.links);
+  links_.bricks.resize(layout.tree.bricks().size());
 }
 
-std::vector<LatticeValue> LatticeField::values(size_t known) const {
-  std::vector<LatticeValue> values = values_;
-  for (size_t i = known; i < order_.size(); i++) values[order_[i].node] = expect(values, order_[i]).value();
+LatticeNumbers LatticeField::values(size_t known) const {
+  LatticeNumbers values = values_;
+  for (size_t i = known; i < order_.size(); i++)
+    LatticeExpectation(*record_, parents(values, order_[i])).fill(values[order_[i].node]);
   return values;
 }
 
-LatticeExpectation LatticeField::expect(const std::vector<LatticeValue>& values, const LatticeNode& node) {
-  std::array<const LatticeValue*, 6> parents;
-  for (size_t i = 0; i < node.parent_count; i++) parents[i] = &values[node.parents[i]];
-  return LatticeExpectation({parents.data(), node.parent_count});
+LatticeParents LatticeField::parents(const LatticeNumbers& values, const LatticeNode& node) const {
+  LatticeParents parents;
+  const auto row = static_cast<uint32_t>(grid_nodes_[0]), layer = row * static_cast<uint32_t>(grid_nodes_[1]);
+  for (size_t i = 0; i < node.parent_count; i++) {
+    const uint32_t parent = node.parents[i], apart = std::max(parent, node.node) - std::min(parent, node.node);
+    const int axis = apart % layer == 0 ? 2 : apart % row == 0 ? 1 : 0;
+    const bool blocked = !links_.nodes.empty() && blocked_between(links_.nodes, grid_nodes_, parent, node.node, axis);
+    parents.add({values[parent].data(), static_cast<uint8_t>(axis), blocked});
+  }
+  return parents;
 }
 
-LatticeExpectation LatticeField::expect(const Points& points, int point) {
-  std::array<const LatticeValue*, 6> parents;
-  size_t count = 0;
-  const Vec3i local = Brick::local(point);
-  for (int a = 0; a < 3; a++) {
-    if (local[a] % 2 == 0) continue;
-    for (const int step : {-1, 1}) {
-      Vec3i parent = local;
-      parent[a] += step;
-      parents[count++] = &points[static_cast<size_t>(Brick::point(parent))];
-    }
-  }
-  return LatticeExpectation({parents.data(), count});
+LatticeParents LatticeField::parents(uint32_t brick, int point) const {
+  LatticeParents parents;
+  for (const BrickParent& parent : brick_parents(point))
+    parents.add({points_[place_of(brick, parent.point)].data(), static_cast<uint8_t>(parent.axis), false});
+  return parents;
+}
+
+void LatticeField::keep_links(uint32_t brick, int point, const LatticeParents& parents) {
+  if (links_.bricks.empty()) return;
+  const std::vector<BrickParent>& around = brick_parents(point);
+  for (size_t i = 0; i < around.size(); i++)
+    if (parents.all()[i].blocked)
+      links_.bricks[brick][static_cast<size_t>(around[i].first)] |= static_cast<uint8_t>(1 << around[i].axis);
+}
+
+const std::vector<BrickParent>& brick_parents(int point) {
+  static const std::vector<std::vector<BrickParent>> of_points = [] {
+    std::vector<std::vector<BrickParent>> table;
+    for (int p = 0; p < Brick::points; p++) table.push_back(parents_of(p));
+    return table;
+  }();
+  return of_points[static_cast<size_t>(point)];
 }
 
 void LatticeField::take_corners(uint32_t brick) {
@@ -54,8 +92,9 @@ void LatticeField::take_corners(uint32_t brick) {
     const Vec3i local = Brick::local(point);
     if ((local[0] | local[1] | local[2]) & 1) continue;
     const Vec3i corner = first + Vec3i{{local[0] / 2, local[1] / 2, local[2] / 2}};
-    bricks_[brick][static_cast<size_t>(point)] = coarser ? bricks_[*coarser][static_cast<size_t>(Brick::point(corner))]
-                                                         : values_[node_index(grid_nodes_, corner)];
+    const auto numbers =
+        coarser ? points_[place_of(*coarser, Brick::point(corner))] : values_[node_index(grid_nodes_, corner)];
+    std::ranges::copy(numbers, points_[place_of(brick, point)].begin());
   }
 }
 

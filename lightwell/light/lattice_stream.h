@@ -6,6 +6,7 @@
 
 #include "lightwell/base/bytes.h"
 #include "lightwell/base/result.h"
+#include "lightwell/light/lattice_links.h"
 #include "lightwell/light/lattice_model.h"
 #include "lightwell/light/lattice_order.h"
 #include "lightwell/light/push_pull.h"
@@ -22,17 +23,24 @@ struct LatticeLayout {
   GridShape shape;
   float normal_offset = 0.25f;
   float scale = 1;  ///< E is taken times this power of two: see light_scale
-  int steps = 32;   ///< to an octave: see LatticeSteps
-  BrickTree tree;   ///< in the order of BrickTree::ordered
-  std::array<LatticeValue, 8> corners{};
+  LightRecord record = LightRecord::moments;
+  int steps = 32;              ///< to an octave: see make_lattice_record
+  BrickTree tree;              ///< in the order of BrickTree::ordered
+  std::vector<uint8_t> links;  ///< see write_links; those of bricks are told with their nodes. Empty: all are open.
+  LatticeNumbers corners;
 
   static constexpr size_t most_nodes = LightLayout::most_nodes;
   /// Together with what they hold, bricks take 17 kB each where they are decoded.
   static constexpr size_t most_bricks = 20'000;
 
+  std::unique_ptr<const LatticeRecord> make_record() const { return make_lattice_record(record, steps, scale); }
+
   void write(ByteWriter& writer) const;
   /// Fails on values that no encoder writes and on trailing bytes.
   static Result<LatticeLayout> read(Bytes parameters);
+
+ private:
+  void write_head(ByteWriter& writer) const;
 };
 
 struct LatticeStream {
@@ -41,18 +49,24 @@ struct LatticeStream {
 };
 
 struct LatticeStreamOptions {
-  int steps = 32;  ///< to an octave of irradiance; 32 adds an error of 0.7 %
+  LightRecord record = LightRecord::moments;
+  int steps = 0;  ///< to an octave of irradiance; 32 adds an error of 0.7 %; 0: see steps_for
 };
+
+/// 32, or 16 where a grid's own noise hides the 1.2 % that these add: noise costs bytes, and finer steps only spell it
+/// out.
+int steps_for(const LightGrid& grid);
 
 /// Encodes a whole grid. Fails for shapes beyond the limits of LightLayout and LatticeLayout.
 Result<LatticeStream> encode_lattice(const LightGrid& grid, const LatticeStreamOptions& options = {});
 
-/// The values of a stream as far as they are known: those of the grid's nodes and of the bricks' points. What encoder
-/// and decoder do alike.
+/// The numbers of a stream as far as they are known: those of the grid's nodes and of the bricks' points, and the links
+/// between them. What encoder and decoder do alike.
 class LatticeField {
  public:
   explicit LatticeField(const LatticeLayout& layout);
 
+  const LatticeRecord& record() const { return *record_; }
   const std::vector<LatticeNode>& order() const { return order_; }
   const BrickNodes& nodes() const { return nodes_; }
   /// finer_points()
@@ -60,32 +74,46 @@ class LatticeField {
   /// The number of nodes.
   size_t count() const { return order_.size() + nodes_.nodes().size(); }
 
-  LatticeValue& node(uint32_t node) { return values_[node]; }
-  const LatticeValue& node(uint32_t node) const { return values_[node]; }
-  const LatticeValue& point(uint32_t brick, int point) const { return bricks_[brick][static_cast<size_t>(point)]; }
+  std::span<int32_t> node(uint32_t node) { return values_[node]; }
+  std::span<const int32_t> node(uint32_t node) const { return values_[node]; }
+  std::span<const int32_t> point(uint32_t brick, int point) const { return points_[place_of(brick, point)]; }
+  const Links& links() const { return links_; }
 
-  LatticeExpectation expect(const LatticeNode& node) const { return expect(values_, node); }
-  /// The values of the grid's nodes when so many are known: those of the others lie between them.
-  std::vector<LatticeValue> values(size_t known) const;
+  LatticeExpectation expect(const LatticeNode& node) const { return {*record_, parents(values_, node)}; }
+  /// The numbers of the grid's nodes when so many are known: those of the others lie between them.
+  LatticeNumbers values(size_t known) const;
   /// Sets the points of a brick in turn: those that it shares with bricks before it, which must be set, are taken over,
-  /// those that hang are as expected, and code(value, expectation, point) sets the others.
+  /// those that hang are as expected, and code(numbers, parents, point) sets the others, of their parents also which
+  /// are blocked.
   template <typename Code>
   void set_brick(uint32_t brick, const Code& code);
 
  private:
-  using Points = std::array<LatticeValue, Brick::points>;
+  static size_t place_of(uint32_t brick, int point) {
+    return size_t(brick) * Brick::points + static_cast<size_t>(point);
+  }
   void take_corners(uint32_t brick);
-  static LatticeExpectation expect(const std::vector<LatticeValue>& values, const LatticeNode& node);
-  static LatticeExpectation expect(const Points& points, int point);
+  LatticeParents parents(const LatticeNumbers& values, const LatticeNode& node) const;
+  LatticeParents parents(uint32_t brick, int point) const;
+  void keep_links(uint32_t brick, int point, const LatticeParents& parents);
 
+  std::unique_ptr<const LatticeRecord> record_;
   BrickTree tree_;
   Vec3i grid_nodes_;
   std::vector<LatticeNode> order_;
   BrickNodes nodes_;
-  std::vector<LatticeValue> values_;
-  std::vector<Points> bricks_;
+  LatticeNumbers values_;
+  LatticeNumbers points_;  // of all bricks
+  Links links_;
   std::vector<int> finer_;
 };
+
+/// A parent of a brick's point: on the axes on which the point's place is odd, in turn, the neighbours to both sides.
+struct BrickParent {
+  int point = 0, axis = 0;
+  int first = 0;  ///< that of the two points whose link leads to the other
+};
+const std::vector<BrickParent>& brick_parents(int point);
 
 /// Decodes a lattice stream. Safe for any bytes.
 class LatticeDecoder {
@@ -111,7 +139,6 @@ class LatticeDecoder {
   void place_bricks(LightGrid& grid) const;
 
   LatticeLayout layout_;
-  LatticeSteps steps_;
   LatticeField field_;
   std::unique_ptr<LatticeCoder> coder_;  ///< too large for a WebAssembly stack
   size_t base_ = 8;                      ///< nodes of the grid's own that have arrived
@@ -133,18 +160,21 @@ struct LatticeBundle {
 template <typename Code>
 void LatticeField::set_brick(uint32_t brick, const Code& code) {
   take_corners(brick);
-  Points& points = bricks_[brick];
   const uint32_t own = nodes_.first()[brick];
   for (const int point : finer_) {
-    LatticeValue& value = points[static_cast<size_t>(point)];
+    const std::span<int32_t> numbers = points_[place_of(brick, point)];
     const uint32_t number = nodes_.at(brick, point);
-    if (number == BrickNodes::none) {
-      value = expect(points, point).value();
-    } else if (number < own) {
+    if (number != BrickNodes::none && number < own) {
       const BrickNode& first = nodes_.nodes()[number];
-      value = bricks_[first.brick][static_cast<size_t>(first.point)];
+      std::ranges::copy(points_[place_of(first.brick, first.point)], numbers.begin());
+      continue;
+    }
+    LatticeParents around = parents(brick, point);
+    if (number == BrickNodes::none) {
+      LatticeExpectation(*record_, around).fill(numbers);
     } else {
-      code(value, expect(points, point), point);
+      code(numbers, around, point);
+      keep_links(brick, point, around);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lightwell/light/lattice_record.h"
 #include "lightwell/light/light_field.h"
 #include "lightwell/scene/client_lamp.h"
 
@@ -21,6 +22,7 @@ struct PackGrid {
   float estimated_error = 0;  ///< RMS error as a fraction of the grid's RMS
   int priority = 0;           ///< where grids of the same contents overlap, the highest priority is looked up
   LightNodeOrder order = LightNodeOrder::lattice;
+  LightRecord record = LightRecord::moments;  ///< of the lattice order
   uint64_t seed = 1;  ///< of the order of slices
 };
 

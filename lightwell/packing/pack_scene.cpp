@@ -104,7 +104,7 @@ Result<PackStream> light_stream(const PackGrid& grid) {
     LW_TRY(encoded, encode_light(*grid.grid, {.seed = grid.seed}));
     return light_stream(std::move(encoded), light_codec_slices);
   }
-  LW_TRY(encoded, encode_lattice(*grid.grid));
+  LW_TRY(encoded, encode_lattice(*grid.grid, {.record = grid.record}));
   return light_stream(std::move(encoded), light_codec_lattice);
 }
 

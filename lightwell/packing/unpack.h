@@ -41,10 +41,11 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report);
 
 /// The part of a light grid to unpack: the first bundles that together hold at least `share` of its nodes. The
-/// remaining nodes are filled.
+/// remaining nodes are filled. And how the light between them is found.
 struct LightLevel {
   float share = 1;
   Fill fill = Fill::push_pull;
+  LightLookup lookup = LightLookup::trilinear;
 };
 
 /// The light grid of a light stream at the given level. Fails when `share` is 1 and the stream is incomplete.

@@ -49,14 +49,14 @@ Result<void> verify_plain_form(const OpenedPack& pack) {
   return {};
 }
 
-/// Grids of different groups that are looked up together have the same cells, since clients add them up.
+/// Grids of different light that are looked up together have the same cells, since clients add them up.
 Result<void> verify_same_cells(const OpenedPack& pack, const GridDescription& a, const GridDescription& b) {
-  if (a.contains.group == b.contains.group || a.priority != b.priority) return {};
+  if (a.contains == b.contains || a.priority != b.priority) return {};
   LW_TRY(one, open_asset_as<LightAsset>(pack.reader(), a.stream));
   LW_TRY(other, open_asset_as<LightAsset>(pack.reader(), b.stream));
   if (a.shape == b.shape && a.normal_offset == b.normal_offset && std::ranges::equal(one->bricks(), other->bricks()))
     return {};
-  return fail(grids_extension, "grids of different groups have different cells");
+  return fail(grids_extension, "grids of different light have different cells");
 }
 
 Result<void> verify_grids(const OpenedPack& pack) {

@@ -33,6 +33,12 @@ struct Bsdf {
   };
   /// Given the cosine of the direction to the normal.
   Albedo albedo(float cosine) const;
+  /// Whether the gloss is so rough and so weak that it is as good as diffuse where the light of many rays is summed up:
+  /// it spreads light nearly as far, and rays for it would change the sum by less than their noise.
+  bool nearly_diffuse(const Albedo& albedo) const {
+    constexpr float rough = 0.5f, weak = 0.1f;
+    return roughness >= rough && max_component(albedo.gloss + albedo.repeated) <= weak;
+  }
 
   struct Evaluation {
     Vec3f value{};      ///< of the BSDF, 1/sr

@@ -7,14 +7,6 @@ namespace {
 /// Near surfaces that are followed one after the other; in a gap that is narrower they are taken as they are.
 constexpr int most_near = 6;
 
-/// Gloss as rough and as weak as this is counted as diffuse: it spreads light nearly as far, and rays for it would
-/// change the light by less than their noise.
-constexpr float rough_gloss = 0.5f, weak_gloss = 0.1f;
-
-bool counts_as_diffuse(const Bsdf& bsdf, const Bsdf::Albedo& albedo) {
-  return bsdf.roughness >= rough_gloss && max_component(albedo.gloss + albedo.repeated) <= weak_gloss;
-}
-
 /// Follows one ray from gloss to gloss, and through narrow places.
 class Gatherer {
  public:
@@ -41,7 +33,7 @@ class Gatherer {
       Bsdf followed = surface.bsdf;
       if (hit.distance >= near_ || reflections_ >= most_near) {
         const Bsdf::Albedo albedo = surface.bsdf.albedo(hit.cosine);
-        const bool all = counts_as_diffuse(surface.bsdf, albedo);
+        const bool all = surface.bsdf.nearly_diffuse(albedo);
         gathering_.diffuse[gathering_.diffuse_count++] = {hit.position, hit.facing_normal(),
                                                           throughput_ * (all ? albedo.total() : albedo.diffuse)};
         if (all) break;

@@ -33,7 +33,10 @@ bool PhotonWalk::next(Flight& flight) {
 bool PhotonWalk::reflect(Flight& flight) {
   if (flight.bounces == max_bounces) return false;
   const Vec3f normal = hit_.facing_normal();
-  const Bsdf::Sample sample = surfaces_.surface(hit_).bsdf.sample(normal, -flight.direction, random_);
+  const Bsdf bsdf = surfaces_.surface(hit_).bsdf;
+  const Bsdf::Albedo albedo = bsdf.albedo(hit_.cosine);
+  const Bsdf::Sample sample = (bsdf.nearly_diffuse(albedo) ? Bsdf::lambertian(albedo.total()) : bsdf)
+                                  .sample(normal, -flight.direction, random_);
   const Vec3f reflected = flight.flux * hit_.tint * sample.weight;
   const float survival = std::min(1.0f, max_component(reflected) / max_component(flight.flux));
   if (random_.uniform() >= survival) return false;

@@ -17,7 +17,7 @@ LightField baked(const Scene& scene, int nodes) {
   LightBakeStatistics statistics;
   auto grids = bake_light(*world, options, silent, statistics);
   LW_ASSERT(grids.has_value());
-  return LightField(layers_of(std::move(*grids), {}, *world, {}));
+  return LightField(layers_of(std::move(*grids)));
 }
 
 /// The mean irradiance of points spread over the six walls of a room, `off` metres in front of them.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lightwell/bake/light_bake.h"
+#include "lightwell/bake/light_parts.h"
 #include "lightwell/light/grid_sum.h"
 #include "tests/trace/scenes.h"
 
@@ -23,8 +24,9 @@ Scene three_lights() {
   return scene;
 }
 
-std::vector<BakedGrid> bake(const World& world, int nodes, std::span<const LightGroup> groups) {
+std::vector<BakedGrid> bake(const World& world, int nodes, std::span<const LightGroup> groups, bool sky_apart = false) {
   LightBakeOptions options;
+  options.sky_apart = sky_apart;
   options.nodes = nodes;
   options.most_bytes = 12'000;
   options.groups = groups;
@@ -78,7 +80,7 @@ TEST(LightGroups, HoldTheLightOfTheirLuminairesAlone) {
   const std::vector<BakedGrid> grids = bake(*world, 7, *groups);
   ASSERT_EQ(grids.size() % 3, 0u);
   for (size_t i = 0; i < grids.size(); i++) {
-    EXPECT_EQ(grids[i].group, (*groups)[i % 3].name);
+    EXPECT_EQ(grids[i].contains.group, (*groups)[i % 3].name);
     constexpr std::array<int, 3> colors{0, 2, 1};
     for (int c = 0; c < 3; c++) EXPECT_EQ(channel(grids[i].grid, c) > 0, c == colors[i % 3]) << i << ' ' << c;
   }
@@ -115,6 +117,45 @@ TEST(LightGroups, AddUpToTheLightOfAll) {
   }
 }
 
+TEST(LightParts, AreWhatIsReflectedAndTheSkyOfItsGroup) {
+  const Scene scene = three_lights();
+  const auto world = world_of(scene);
+  const auto groups = group_luminaires(*world, GroupedBy::name);
+  const LuminaireSet all = LuminaireSet::all(3);
+  EXPECT_EQ(light_parts(*world, all, {}, false).size(), 1u);
+  const std::vector<LightPart> two = light_parts(*world, all, {}, true);
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(contents_of(two[0], *world), (GridContents{.indirect = true, .lamps = true}));
+  EXPECT_EQ(contents_of(two[1], *world), (GridContents{.indirect = false, .environment = true}));
+  const std::vector<LightPart> four = light_parts(*world, all, *groups, true);
+  ASSERT_EQ(four.size(), 4u);
+  EXPECT_EQ(contents_of(four[2], *world), (GridContents{.indirect = true, .group = "sky"}));
+  EXPECT_EQ(contents_of(four[3], *world), (GridContents{.indirect = false, .environment = true, .group = "sky"}));
+  EXPECT_EQ(light_parts(*world, {}, {}, true).size(), 1u) << "no grid holds the sky's own light";
+}
+
+// In the open the sky's own light on what faces up is pi times its radiance, and nothing of it comes from below; what
+// the ground reflects is apart. 256 rays, evenly spread, are within 3 %.
+TEST(LightParts, TheSkysOwnLightIsWhatComesStraight) {
+  Mesh ground = quad({{0, 0, 0}}, {{10, 0, 0}}, {{0, 0, -10}});
+  Scene scene = scene_of(ground, lambertian(0.5f));
+  scene.environment.radiance = {{1, 2, 3}};
+  const auto world = world_of(scene);
+  const std::vector<BakedGrid> grids = bake(*world, 5, {}, true);
+  ASSERT_GE(grids.size(), 2u);
+  const LightGrid &reflected = grids[0].grid, &sky = grids[1].grid;
+  EXPECT_TRUE(grids[0].contains.indirect && !grids[1].contains.indirect);
+  const Vec3f middle{{5, 0, -5}}, up{{0, 1, 0}}, down{{0, -1, 0}};
+  const Vec3f place = middle + up * 0.5f * sky.shape.cell[1];
+  for (int c = 0; c < 3; c++) {
+    const float radiance = scene.environment.radiance[c];
+    EXPECT_NEAR(sky.irradiance(place, up)[c], pi * radiance, 0.03f * pi * radiance);
+    EXPECT_NEAR(reflected.irradiance(place, up)[c], 0, 0.03f * pi * radiance);
+    EXPECT_GT(reflected.irradiance(place, down)[c], 0.3f * pi * radiance);
+    EXPECT_LT(sky.irradiance(place, down)[c], 0.2f * pi * radiance);
+  }
+}
+
 TEST(LightGroups, OneGroupChangesNothing) {
   const Scene scene = three_lights();
   const auto world = world_of(scene);
@@ -124,7 +165,7 @@ TEST(LightGroups, OneGroupChangesNothing) {
   const std::vector<BakedGrid> alone = bake(*world, 5, {}), grouped = bake(*world, 5, *one);
   ASSERT_EQ(alone.size(), grouped.size());
   for (size_t i = 0; i < alone.size(); i++) {
-    EXPECT_EQ(grouped[i].group, "");
+    EXPECT_EQ(grouped[i].contains.group, "");
     for (size_t node = 0; node < alone[i].grid.moments.size(); node++)
       EXPECT_EQ(alone[i].grid.moments[node].m, grouped[i].grid.moments[node].m);
   }

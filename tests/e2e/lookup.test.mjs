@@ -27,15 +27,19 @@ test('the chunks of three.js are those that the lookup was written for', () => {
   }
 });
 
-for (const [kind, number] of [['regular', 0], ['divided', 1]]) test(`a material receives the irradiance that light/ computes of a ${kind} grid, wherever it stands`, async (t) => {
+const GRIDS = { regular: 0, divided: 1 };
+const LOOKUPS = { trilinear: 'irradiance', tricubic: 'tricubic' };
+
+for (const [kind, number] of Object.entries(GRIDS)) for (const [lookup, wanted] of Object.entries(LOOKUPS))
+test(`a material receives the ${lookup} irradiance that light/ computes of a ${kind} grid, wherever it stands`, async (t) => {
   const fixture = JSON.parse(await readFile(`${ROOT}tests/data/light/lookup.json`, 'utf8'))[number];
   const server = await forTest(t, startStaticServer(await scriptPage('tests/e2e/pages/lookup.ts')));
   const { page, errors } = await forTest(t, openPage(browser));
   await page.goto(server.url);
   await page.waitForFunction(() => globalThis.run !== undefined);
-  const measured = await page.evaluate((input) => globalThis.run(input), fixture);
+  const measured = await page.evaluate((input) => globalThis.run(...input), [fixture, lookup]);
   fixture.placements.forEach(({ samples }, place) =>
-    samples.forEach(({ irradiance, point }, i) => {
+    samples.forEach(({ [wanted]: irradiance, point }, i) => {
       const largest = Math.max(...irradiance);
       irradiance.forEach((expected, channel) => {
         const difference = Math.abs(measured[place][i][channel] - expected);
@@ -46,7 +50,7 @@ for (const [kind, number] of [['regular', 0], ['divided', 1]]) test(`a material 
   const shader = await page.evaluate(() => globalThis.fragmentShader());
   const count = (pattern) => shader.match(pattern)?.length ?? 0;
   assert.equal(count(/\btexture(Lod|Grad|Offset)?\(\s*probesSH\b/g), 7, 'the lookup is seven filtered fetches');
-  assert.equal(count(/\bfetchLightProbes\(/g), 2, 'defined and called once');
+  assert.equal(count(/\bfetchLightProbes\(/g), 3, 'defined, and called once in each lookup');
   assert.equal(count(/irradiance \+= getLightProbeGridIrradiance\(/g), 1, 'called once for the one grid');
   assert.deepEqual(errors, []);
 });

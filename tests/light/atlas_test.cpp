@@ -117,10 +117,12 @@ TEST(LightAtlas, WeightsAreNormalHalves) {
 }
 
 // tests/data/light/lookup.json is what the page's shader is tested against in a browser: a regular grid and one with
-// bricks, each an atlas, placements as uniforms, world points and normals, and the irradiance that they must give.
+// bricks, each an atlas, placements as uniforms, world points and normals, and the irradiance that they must give, trilinear and tricubic.
 // LIGHTWELL_UPDATE_TEST_DATA=1 writes it anew.
 std::string lookup_fixture(const LightGrid& grid) {
   const GridShape& shape = grid.shape;
+  LightGrid spline = grid;
+  spline.lookup = LightLookup::tricubic;
   LightAtlas atlas(shape, grid.normal_offset, light_scale(grid), grid.tree);
   atlas.update(grid);
 
@@ -160,6 +162,8 @@ std::string lookup_fixture(const LightGrid& grid) {
       list(placement.normal(n).e);
       json << ",\"irradiance\":";
       list(grid.irradiance(p, n).e);
+      json << ",\"tricubic\":";
+      list(spline.irradiance(p, n).e);
       json << "}";
     }
     json << "]}";

@@ -137,6 +137,50 @@ TEST(LightGrid, LooksHalfACellAlongTheNormal) {
   }
 }
 
+// The B-spline's own sum over 64 nodes, at places away from the borders, where nodes are missing.
+TEST(LightGrid, TricubicIsTheSplineOverSixtyFourNodes) {
+  Random random(8, 0);
+  LightGrid grid = lamp_grid(GridShape::over({{{0, 0, 0}}, {{3, 4, 5}}}, 9), 4, 0.5f);
+  grid.normal_offset = 0;
+  grid.lookup = LightLookup::tricubic;
+  const auto spline = [](float x) {
+    const float t = std::abs(x);
+    return t < 1 ? (4 - 6 * t * t + 3 * t * t * t) / 6 : t < 2 ? (2 - t) * (2 - t) * (2 - t) / 6 : 0.0f;
+  };
+  for (int i = 0; i < 100; i++) {
+    Vec3f place;
+    for (int a = 0; a < 3; a++) place[a] = 1 + random.uniform() * static_cast<float>(grid.shape.cells()[a] - 2);
+    const Vec3f normal = random_direction(random);
+    Moments sum;
+    for (size_t node = 0; node < grid.moments.size(); node++) {
+      const Vec3f away = place - grid.shape.node(node).cast<float>();
+      sum += grid.moments[node] * (spline(away[0]) * spline(away[1]) * spline(away[2]));
+    }
+    const Vec3f found = grid.irradiance(grid.shape.lo + place * grid.shape.cell, normal);
+    const Vec3f wanted = sum.irradiance(normal);
+    for (int c = 0; c < 3; c++) EXPECT_NEAR(found[c], wanted[c], 1e-4f * (1 + wanted[c]));
+  }
+}
+
+// Over nodes of 4, 3, 2, 1, 2, 3, 4 the slope of trilinear light jumps from -1 to 1 at the middle one; that of the
+// spline passes through 0, with a second derivative of 2.
+TEST(LightGrid, TricubicHasNoCreases) {
+  LightGrid grid;
+  grid.shape.nodes = {{9, 5, 5}};
+  grid.normal_offset = 0;
+  grid.valid.assign(grid.shape.count(), 1);
+  for (size_t i = 0; i < grid.shape.count(); i++)
+    grid.moments.push_back(uniform_light(Vec3f::filled((std::abs(grid.shape.node(i)[0] - 4.0f) + 1) / pi)));
+  constexpr float step = 0.01f;
+  const auto bend = [&](LightLookup lookup) {
+    grid.lookup = lookup;
+    const auto at = [&](float x) { return grid.irradiance({{4 + x, 2, 2}}, {{0, 1, 0}})[0]; };
+    return at(step) - 2 * at(0) + at(-step);
+  };
+  EXPECT_NEAR(bend(LightLookup::trilinear), 2 * step, 1e-4f);
+  EXPECT_NEAR(bend(LightLookup::tricubic), 2 * step * step, 1e-4f);
+}
+
 TEST(LightGrid, AnythingIsAPoint) {
   Random random(6, 0);
   const LightGrid grid = lamp_grid(random_shape(random, 3), 7);

@@ -62,34 +62,6 @@ TEST(LatticeOrder, ComesToEveryNodeOnceAfterItsParents) {
   }
 }
 
-// A step of 1/32 of an octave rounds by at most 1.1 %, evenly: 0.63 % in root mean square, and what is added to E so
-// that its logarithm ends makes more of it in the dark only.
-TEST(LatticeSteps, RoundToHalfAStep) {
-  Random random(3, 0);
-  const LatticeSteps steps(32, 1);
-  for (int i = 0; i < 300; i++) {
-    Moments m = uniform_light(random_colour(random) * 100);
-    m += parallel_light(random_direction(random), random_colour(random) * 300);
-    const Moments back = steps.decode(steps.encode(m));
-    for (size_t d = 0; d < 6; d++)
-      for (int c = 0; c < 3; c++) EXPECT_NEAR(back.m[d][c], m.m[d][c], 0.0112f * (m.m[d][c] + 0.0625f));
-    const LatticeValue again = steps.encode(back);
-    for (size_t k = 0; k < 18; k++) EXPECT_EQ(again.v[k], steps.encode(m).v[k]) << "decoding is exact";
-  }
-}
-
-TEST(LatticeSteps, AnyValueIsFinite) {
-  Random random(4, 0);
-  for (const int count : {4, 32, 256}) {
-    const LatticeSteps steps(count, 0x1p15f);
-    for (int i = 0; i < 300; i++) {
-      LatticeValue value;
-      for (int16_t& v : value.v) v = static_cast<int16_t>(random.bits());
-      for (const Vec3f& m : steps.decode(value).m) EXPECT_TRUE(is_finite(m));
-    }
-  }
-}
-
 TEST(LatticeStream, ReturnsWhatItsStepsRoundTo) {
   for (uint64_t seed = 0; seed < 12; seed++) {
     LightGrid grid = bricked_grid(seed, seed % 3 == 0 ? 0 : 20);
@@ -163,6 +135,67 @@ TEST(LatticeStream, TakesFewBytesANode) {
   const LightGrid grid = lamp_grid(GridShape::over({{{0, 0, 0}}, {{3, 3, 2}}}, 25), 2);
   const LatticeStream stream = encode_lattice(grid).value();
   EXPECT_LT(static_cast<double>(stream_bytes(stream)) / static_cast<double>(grid.shape.count()), 6.5);
+}
+
+/// A grid divided by a wall at half of its width: bright on one side, darker and of another colour on the other. Its
+/// links say where the wall stands.
+LightGrid two_rooms(uint64_t seed) {
+  Random random(seed, 0);
+  GridShape shape = divisible_shape(random);
+  shape.nodes[0] = 17;
+  const float wall = shape.lo[0] + 7.3f * shape.cell[0];
+  BrickTree tree(shape.cells());
+  for (int y = 0; 2 * y + 1 < shape.nodes[1] - 1; y++) tree.add({1, {{3, y, 0}}});
+  LightGrid grid = grid_of_field(shape, tree, [&](const Vec3f& p) {
+    const Vec3f radiance = p[0] < wall ? Vec3f{{3, 2, 1}} : Vec3f{{0.1f, 0.2f, 0.4f}};
+    return std::pair(uniform_light(radiance * (1 + 0.05f * p[1])), true);
+  });
+  const auto link = [&](const Vec3f& from, const Vec3f& cell) {
+    return static_cast<uint8_t>(from[0] < wall && from[0] + cell[0] > wall);
+  };
+  for (size_t i = 0; i < shape.count(); i++)
+    grid.links.nodes.push_back(link(shape.position(shape.node(i)), shape.cell));
+  for (const Brick& brick : tree.bricks()) {
+    const Vec3f cell = shape.cell * std::ldexp(1.0f, -brick.level);
+    Links::Points links{};
+    for (int point = 0; point < Brick::points; point++)
+      if (Brick::local(point)[0] < Brick::cells)
+        links[static_cast<size_t>(point)] = link(shape.lo + cell * brick.corner(point).cast<float>(), cell);
+    grid.links.bricks.push_back(links);
+  }
+  return grid;
+}
+
+// The wall costs bytes only where it is told, and what lies behind it is no longer mixed in: without links half of a
+// room is a mixture of both until the finest nodes have come.
+TEST(LatticeStream, DoesNotLookThroughWalls) {
+  for (uint64_t seed = 0; seed < 4; seed++) {
+    const LightGrid linked = two_rooms(seed);
+    LightGrid unlinked = linked;
+    unlinked.links = {};
+    const LatticeStream with = encode_lattice(linked).value(), without = encode_lattice(unlinked).value();
+    EXPECT_LT(stream_bytes(with) + with.layout.links.size(), stream_bytes(without));
+    const LightGrid shown = opened(with).grid(Fill::push_pull), mixed = opened(without).grid(Fill::push_pull);
+    EXPECT_LT(difference(linked, shown), 0.1) << "the corners alone know both rooms";
+    EXPECT_GT(difference(linked, mixed), 0.3);
+  }
+}
+
+TEST(LatticeStream, ReturnsTheLinks) {
+  for (uint64_t seed = 0; seed < 4; seed++) {
+    const LightGrid grid = two_rooms(seed);
+    const LightGrid back = decoded(encode_lattice(grid).value()).grid(Fill::push_pull);
+    EXPECT_EQ(back.links.nodes, grid.links.nodes);
+    // Of bricks those from their own nodes to their parents.
+    ASSERT_EQ(back.links.bricks.size(), grid.bricks.size());
+    size_t blocked = 0;
+    for (uint32_t brick = 0; brick < grid.bricks.size(); brick++)
+      for (size_t point = 0; point < Brick::points; point++) {
+        EXPECT_EQ(back.links.bricks[brick][point] & ~grid.links.bricks[brick][point], 0);
+        blocked += back.links.bricks[brick][point];
+      }
+    EXPECT_GT(blocked, 0u);
+  }
 }
 
 TEST(LatticeStream, RefusesParametersThatNoEncoderWrites) {

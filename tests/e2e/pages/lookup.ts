@@ -15,7 +15,7 @@ import {
   WebGLRenderer,
   WebGLRenderTarget,
 } from 'three';
-import { LightwellLight } from '../../../web/src/three/light.js';
+import { type LightLookup, LightwellLight } from '../../../web/src/three/light.js';
 
 type Triple = [number, number, number];
 
@@ -29,7 +29,7 @@ interface Fixture {
     min: Triple;
     max: Triple;
     resolution: Triple;
-    samples: { point: Triple; normal: Triple; irradiance: Triple }[];
+    samples: { point: Triple; normal: Triple }[];
   }[];
 }
 
@@ -53,11 +53,11 @@ function irradiance(scene: Scene, mesh: Mesh, point: Vector3, normal: Vector3): 
 }
 
 /** The irradiance of all samples, a list for each placement of the grid. */
-export function run(fixture: Fixture): Triple[][] {
+export function run(fixture: Fixture, lookup: LightLookup): Triple[][] {
   const { nodes, width, height, depth } = fixture;
   const cell: Triple = [0.5, 0.25, 0.125];
   const definition = { stream: 0, min: [0, 0, 0] as Triple, cell, nodes, normalOffset: 0.5 };
-  const light = new LightwellLight(definition, { atlas: new Uint16Array(fixture.halves), width, height, depth });
+  const light = new LightwellLight(definition, { atlas: new Uint16Array(fixture.halves), width, height, depth }, lookup);
   const holder = new Group().add(light);
   const mesh = new Mesh(new BufferGeometry(), new MeshLambertMaterial());
   mesh.frustumCulled = false;

@@ -12,6 +12,7 @@ export interface LightwellViewAttributes {
   'field-of-view'?: string;
   exposure?: number | string;
   light?: 'all' | 'off' | 'direct' | 'indirect';
+  'light-lookup'?: 'trilinear' | 'tricubic';
   tone?: 'neutral' | 'none';
   strategy?: 'interleave' | 'geometry' | 'light';
   wireframe?: boolean | '';
@@ -31,6 +32,7 @@ export const DRAWN_ATTRIBUTES = [
   'aria-label',
 ];
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
+export const LOOKUPS = ['trilinear', 'tricubic'] as const;
 export const STRATEGIES = ['interleave', 'geometry', 'light'] as const;
 export const TONES = ['neutral', 'none'] as const;
 

@@ -4,7 +4,7 @@ import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
 import type { LightwellScene } from '../three/scene.js';
-import { DRAWN_ATTRIBUTES, LIGHTS, parseQuantity, parseView, parseWord, STRATEGIES, TONES } from './attributes.js';
+import { DRAWN_ATTRIBUTES, LIGHTS, LOOKUPS, parseQuantity, parseView, parseWord, STRATEGIES, TONES } from './attributes.js';
 import { type ContextHolder, dropContext, serveContexts, wantContext } from './contexts.js';
 import type { LightwellViewDetails, Listens } from './events.js';
 import { cameraNamed, cameraNames } from './file_cameras.js';
@@ -248,11 +248,12 @@ export class LightwellView extends Base implements ContextHolder {
     const stage = this.#stage;
     if (src === null || stage === null || (this.getAttribute('loading') === 'lazy' && !this.#near)) return;
     const strategy: Strategy = parseWord(this.getAttribute('strategy'), STRATEGIES);
+    const lookup = parseWord(this.getAttribute('light-lookup'), LOOKUPS);
     const loader = (this.#loader = new LightwellLoader());
     const current = () => loader === this.#loader;
     this.#overlay!.setProgress({ done: 0, total: 0 });
     const onConnection = (state: ConnectionEvent['state']) => current() && this.#emit('connection', { state });
-    loader.setRenderer(stage.renderer).setOptions({ strategy, onConnection }).load(
+    loader.setRenderer(stage.renderer).setOptions({ strategy, lookup, onConnection }).load(
       src,
       (pack) => this.#show(pack),
       ({ loaded, total }) => current() && this.#overlay!.setProgress({ done: loaded, total }),

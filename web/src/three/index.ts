@@ -2,7 +2,7 @@
 //
 // Packs in three.js.
 export { Frame, FrameScheduler, FrameTask } from './frame_scheduler.js';
-export { LightwellLight } from './light.js';
+export { LightwellLight, type LightLookup } from './light.js';
 export { PackError } from './pack_error.js';
 export { LightwellLoader, type LoaderOptions } from './loader.js';
 export { LightwellScene, type LightwellSceneEventMap, type SceneOptions } from './scene.js';

@@ -13,7 +13,11 @@ import {
 import type { LightGridDefinition } from './extensions.js';
 import { installLightChunks } from './shader_chunks.js';
 
-const HALF_ONE = 0x3c00;
+/** 0 to 3 as half floats. */
+const HALVES = [0, 0x3c00, 0x4000, 0x4200];
+
+/** How the light between nodes is found: `tricubic` has no creases on the borders of cells, takes eight times the fetches, and leaks more. */
+export type LightLookup = 'trilinear' | 'tricubic';
 
 /**
  * A baked light grid, in the form of three.js's light probe grids: it lights every standard material of its scene, those of
@@ -38,6 +42,7 @@ export class LightwellLight extends Light {
   constructor(
     readonly definition: LightGridDefinition,
     atlas: LightAtlas,
+    readonly lookup: LightLookup = 'trilinear',
   ) {
     super();
     installLightChunks();
@@ -45,7 +50,7 @@ export class LightwellLight extends Light {
     this.priority = definition.priority ?? 0;
     this.#corner = new Matrix4().makeTranslation(...min);
     this.#size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
-    this.texture = atlasTexture(atlas, definition);
+    this.texture = atlasTexture(atlas, this);
   }
 
   override updateMatrixWorld(force?: boolean): void {
@@ -72,13 +77,18 @@ export interface LightAtlas {
 }
 
 /**
- * A filtered texture of a grid's texels, with a mark in the second one, which no lookup filters: whether the grid holds the light
- * of the environment; the shader then leaves out the diffuse part of `scene.environment`. Throws when their number is wrong.
+ * A filtered texture of a grid's texels, with marks in the second one, which no lookup filters: whether the grid holds the light
+ * of the environment (1); the shader then leaves out the diffuse part of `scene.environment`; and whether lookups are tricubic (2).
+ * Throws when their number is wrong.
  */
-export function atlasTexture({ atlas, width, height, depth }: LightAtlas, definition: LightGridDefinition): Data3DTexture {
+export function atlasTexture(
+  { atlas, width, height, depth }: LightAtlas,
+  { definition, lookup }: Pick<LightwellLight, 'definition' | 'lookup'>,
+): Data3DTexture {
   if (atlas.length !== 4 * width * height * depth)
     throw new Error(`the light of stream ${definition.stream} has another size than its texture`);
-  atlas[4] = definition.contains?.includes('environment') === true ? HALF_ONE : 0;
+  const environment = definition.contains?.includes('environment') === true;
+  atlas[4] = HALVES[(environment ? 1 : 0) + (lookup === 'tricubic' ? 2 : 0)]!;
   const texture = new Data3DTexture(atlas, width, height, depth);
   texture.format = RGBAFormat;
   texture.type = HalfFloatType;

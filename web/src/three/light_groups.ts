@@ -11,14 +11,16 @@ import type { AssetWeight } from './view_weights.js';
 type Factor = [number, number, number];
 
 const AS_BAKED: Factor = [1, 1, 1];
+/** What multiplies the sky's own light, where it has grids apart; no group has this name. */
+const SKY = '\0sky';
 const SMALLEST_NORMAL_HALF = 2 ** -14;
 /** Of lightwell/light/atlas.h. */
 const SUB_VOLUMES = 7;
 const WEIGHT_CHANNEL = 27;
 
 /**
- * The groups of a pack whose lamps are switched, dimmed and coloured with their bounced light. Light adds up: the grids of all
- * groups become one, which is looked up as the grid of any other pack. Fetched for packs that have groups only: it imports nothing
+ * The light of a pack in parts: groups whose lamps are switched, dimmed and coloured with their bounced light, and the sky's own.
+ * Light adds up: all grids become one, which is looked up as the grid of any other pack. Fetched for such packs only: it imports nothing
  * that others have (docs/decisions/008-size-of-the-page.md).
  */
 export class LightGroups {
@@ -36,12 +38,12 @@ export class LightGroups {
       const state = states[i]!;
       sum.add(definition, state);
       this.#sumOf.set(state.asset, sum);
-      this.#factors.set(definition.group ?? '', AS_BAKED);
+      for (const name of partsOfGrid(definition)) this.#factors.set(name, AS_BAKED);
     });
   }
 
   get names(): string[] {
-    return [...this.#factors.keys()].filter((name) => name !== '');
+    return [...this.#factors.keys()].filter((name) => name !== '' && name !== SKY);
   }
 
   /** The grids that are looked up, and their states. */
@@ -70,13 +72,17 @@ export class LightGroups {
   /** Sets the factor of a group, its lamps and what shines of them. Throws when there is no such group. */
   set(name: string, factor: number | Factor, lamps: Lamp[], opening: Opening): void {
     if (!this.names.includes(name)) throw new Error(`no light group "${name}": there are ${this.names.join(', ')}`);
-    const of = typeof factor === 'number' ? ([factor, factor, factor] as Factor) : factor;
-    if (of.length !== 3 || !of.every((channel) => channel >= 0 && Number.isFinite(channel)))
-      throw new Error(`light group "${name}": the factor is no number or three of at least 0`);
+    const of = factorOf(name, factor);
     this.#factors.set(name, of);
     for (const lamp of lamps) if (lamp.userData.group === name) tint(lamp.color, this.#lampColors, lamp, of);
     for (const definition of opening.extensions.LIGHTWELL_lamps?.lamps ?? [])
       if (definition.group === name) this.#tintSurface(definition, of, opening);
+  }
+
+  /** Sets the factor of the sky's own light. Throws when it is not apart. */
+  setSky(factor: number | Factor): void {
+    if (!this.#factors.has(SKY)) throw new Error("the sky's own light is not apart from the rest in this pack");
+    this.#factors.set(SKY, factorOf('sky', factor));
   }
 
   /** The surface that a lamp stands for; its material may be that of others, too. */
@@ -93,6 +99,19 @@ export class LightGroups {
   }
 }
 
+/** What a grid's light is multiplied by: the factor of its group, and of the sky where it is the sky's own. */
+function partsOfGrid({ group, contains }: LightGridDefinition): string[] {
+  return contains?.includes('indirect') === false ? [group ?? '', SKY] : [group ?? ''];
+}
+
+/** Throws when it is none. */
+function factorOf(name: string, factor: number | Factor): Factor {
+  const of = typeof factor === 'number' ? ([factor, factor, factor] as Factor) : factor;
+  if (of.length !== 3 || !of.every((channel) => channel >= 0 && Number.isFinite(channel)))
+    throw new Error(`light group "${name}": the factor is no number or three of at least 0`);
+  return of;
+}
+
 /** Sets a colour to what it was at first, times a factor. */
 function tint<Owner>(color: Color, first: Map<Owner, Color>, owner: Owner, [r, g, b]: Factor): void {
   if (!first.has(owner)) first.set(owner, color.clone());
@@ -100,10 +119,10 @@ function tint<Owner>(color: Color, first: Map<Owner, Color>, owner: Owner, [r, g
   color.setRGB(r0 * r, g0 * g, b0 * b);
 }
 
-/** Grids of the same cells, one a group, and their sum. */
+/** Grids of the same cells, each of a part of the light, and their sum. */
 class SummedGrid {
   /** By their assets; the sum has the first one's. */
-  readonly #groups = new Map<number, { name: string; state: LightEvent }>();
+  readonly #parts = new Map<number, { names: string[]; state: LightEvent }>();
 
   constructor(public definition: LightGridDefinition) {}
 
@@ -112,7 +131,7 @@ class SummedGrid {
   }
 
   get #first(): LightEvent | undefined {
-    return this.#groups.values().next().value?.state;
+    return this.#parts.values().next().value?.state;
   }
 
   fits({ min, cell, nodes, priority = 0 }: LightGridDefinition): boolean {
@@ -129,25 +148,27 @@ class SummedGrid {
   add(definition: LightGridDefinition, state: LightEvent): void {
     const contains = [...new Set([...(this.definition.contains ?? []), ...(definition.contains ?? [])])];
     this.definition = { ...this.definition, contains };
-    this.#groups.set(state.asset, { name: definition.group ?? '', state });
+    this.#parts.set(state.asset, { names: partsOfGrid(definition), state });
     this.#check(state);
   }
 
   receive(state: LightEvent): void {
     this.#check(state);
-    this.#groups.get(state.asset)!.state = state;
+    this.#parts.get(state.asset)!.state = state;
   }
 
   state(factors: ReadonlyMap<string, Factor>): LightEvent {
-    const groups = [...this.#groups.values()];
-    const summed = groups.map(({ name, state }) => ({ atlas: state.atlas, factor: factors.get(name) ?? AS_BAKED }));
+    const summed = [...this.#parts.values()].map(({ names, state }) => ({
+      atlas: state.atlas,
+      factor: names.map((name) => factors.get(name) ?? AS_BAKED).reduce((all, of) => all.map((x, c) => x * of[c]!) as Factor),
+    }));
     return { ...this.#first!, atlas: sumOf(summed, this.#first!) };
   }
 
   #check({ width, height, depth, asset }: LightEvent): void {
     const first = this.#first;
     if (first !== undefined && (first.width !== width || first.height !== height || first.depth !== depth))
-      throw new Error(`the light of stream ${asset} has other cells than that of its other groups`);
+      throw new Error(`the light of stream ${asset} has other cells than the rest of it`);
   }
 }
 

@@ -26,7 +26,7 @@ export class LightRefinement implements Refinement {
   constructor(light: LightwellLight, renderer: WebGLRenderer, private readonly received = true) {
     this.#light = light;
     this.#renderer = renderer;
-    this.#hidden = atlasTexture(atlasOf(light.texture), light.definition);
+    this.#hidden = atlasTexture(atlasOf(light.texture), light);
     const { width, height, depth } = light.texture.image;
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
     for (const texture of [light.texture, this.#hidden]) renderer.initTexture(texture);
@@ -41,7 +41,7 @@ export class LightRefinement implements Refinement {
     const { width, height, depth } = this.#light.texture.image;
     if (event.width !== width || event.height !== height || event.depth !== depth)
       throw new Error(`the light of stream ${this.#light.definition.stream} has another size than before`);
-    const state = atlasTexture(event, this.#light.definition);
+    const state = atlasTexture(event, this.#light);
     if (this.#waiting !== null) this.#consumed += texelsOf(this.#waiting).byteLength;
     this.#waiting = state;
   }

@@ -29,7 +29,7 @@ import { disposeAll } from './dispose.js';
 import { assetOf } from './extensions.js';
 import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
 import { HandOver } from './hand_over.js';
-import { LightwellLight } from './light.js';
+import { LightwellLight, type LightLookup } from './light.js';
 import type { LightGroups } from './light_groups.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
 import { createLamps, type Lamp, scaleLamps } from './lamps.js';
@@ -59,6 +59,8 @@ export interface LightwellSceneEventMap extends Object3DEventMap {
 export interface SceneOptions {
   /** Let ambient occlusion maps darken the light of the grid, which holds the occlusion of all that was baked already. */
   ambientOcclusion?: boolean;
+  /** How the light between the nodes of the grid is found; `trilinear` when it is left out. */
+  lookup?: LightLookup;
 }
 
 /** Of a matrix that only turns, relative: rounding. */
@@ -137,10 +139,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     options: SceneOptions,
   ) {
     const definitions = opening.extensions.LIGHTWELL_light_grids?.grids ?? [];
-    const grouped = definitions.some(({ group }) => group !== undefined);
+    const grouped = definitions.some(({ group, contains }) => group !== undefined || contains?.includes('indirect') === false);
     const groups = grouped ? new (await import('./light_groups.js')).LightGroups(definitions, lights) : null;
     const states = groups?.states() ?? lights;
-    const grids = (groups?.definitions ?? definitions).map((grid, i) => new LightwellLight(grid, states[i]!));
+    const grids = (groups?.definitions ?? definitions).map((grid, i) => new LightwellLight(grid, states[i]!, options.lookup));
     for (const { texture } of grids) checkSize(texture, renderer);
     const images = new Map<number, TextureRefinement>();
     for (const [asset, { extension, textures }] of opening.images)
@@ -172,9 +174,23 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const groups = this.#groups;
     if (groups === null) throw new Error('the light of this pack has no groups');
     groups.set(name, factor, this.lamps, this.opening);
+    this.#showGroups(groups);
+  }
+
+  #showGroups(groups: LightGroups): void {
     for (const state of groups.states()) this.#lights.get(state.asset)!.receive(state);
     this.#uploads.request();
     this.#changed();
+  }
+
+  /**
+   * Multiplies the sky's own light, for each colour, in a pack that has it apart from what surfaces reflect; for who shows it by other
+   * means. Throws when it is not apart.
+   */
+  setSkyLight(factor: number | [number, number, number]): void {
+    if (this.#groups === null) throw new Error('the light of this pack is not divided');
+    this.#groups.setSky(factor);
+    this.#showGroups(this.#groups);
   }
 
   /** Asks for no more until `resume`. */
