@@ -10,7 +10,11 @@
 
 #include "lightwell/bake/light_bake.h"
 #include "lightwell/bake/photon_estimator.h"
+#include "lightwell/light/lattice_stream.h"
+#include "lightwell/light/push_pull.h"
+#include "lightwell/light/stream.h"
 #include "lightwell/scene/scene.h"
+#include "lightwell/trace/sampling.h"
 
 namespace lightwell {
 namespace {
@@ -48,10 +52,68 @@ double error_of(const LightField& field, const std::vector<Measured>& points) {
   return 100 * std::sqrt(squares / count) / (sum / count);
 }
 
+/// Nodes on the longest axis.
+constexpr int nodes = 32;
+
+/// The root mean square difference of the irradiance at the valid nodes of a grid for 48 directions, in percent of its
+/// root mean square.
+double difference(const LightGrid& whole, const LightGrid& other) {
+  constexpr size_t directions = 48;
+  double squares = 0, size = 0;
+  for (size_t node = 0; node < whole.moments.size(); node++) {
+    if (!whole.valid[node]) continue;
+    for (size_t i = 0; i < directions; i++) {
+      const Vec3f n = sphere_direction(i, directions, 0.5f, 0);
+      const Vec3f light = whole.moments[node].irradiance(n), off = other.moments[node].irradiance(n) - light;
+      squares += static_cast<double>(dot(off, off));
+      size += static_cast<double>(dot(light, light));
+    }
+  }
+  return 100 * std::sqrt(squares / size);
+}
+
+/// What a share of a grid's nodes shows, filled: in the lattice order, and in that of S08's slices with push-pull.
+void print_prefixes(const char* room, const LightGrid& grid) {
+  ByteWriter of_lattice, of_slices;
+  const LatticeStream lattice = *encode_lattice(grid);
+  const LightStream slices = *encode_light(grid);
+  lattice.layout.write(of_lattice);
+  slices.layout.write(of_slices);
+  constexpr uint64_t enough = uint64_t(1) << 30;
+  LatticeDecoder by_lattice = std::move(*LatticeDecoder::open(of_lattice.bytes(), enough));
+  LightDecoder by_slices = std::move(*LightDecoder::open(of_slices.bytes(), enough));
+  size_t lattice_bundle = 0, slices_bundle = 0;
+  for (const double share : {0.01, 0.05, 0.25, 0.5}) {
+    const auto wanted = static_cast<size_t>(share * static_cast<double>(grid.moments.size()));
+    while (by_lattice.received() < wanted) (void)by_lattice.append(lattice.bundles[lattice_bundle++].payload);
+    while (by_slices.received() < wanted) (void)by_slices.append(slices.bundles[slices_bundle++].payload);
+    LightGrid filled = by_slices.grid();
+    push_pull(filled, by_slices.known(), Fill::push_pull);
+    std::printf("| %s | %.0f %% | %.1f | %.1f |\n", room, 100 * share,
+                difference(grid, by_lattice.grid(Fill::push_pull)), difference(grid, filled));
+  }
+  std::fflush(stdout);
+}
+
 struct Candidate {
   const EstimatorKind* kind;
   uint64_t photons;
 };
+
+bool prefixes(const std::string& folder, const char* room) {
+  Report report;
+  const auto scene = load_scene(folder + '/' + room + ".glb", {}, report);
+  const auto world = scene ? World::build(*scene) : fail(scene.error());
+  if (!world) return std::fprintf(stderr, "%s\n", world.error().message().c_str()), false;
+  LightBakeOptions options;
+  options.nodes = nodes;
+  Progress silent;
+  LightBakeStatistics statistics;
+  const auto grids = bake_light(**world, options, silent, statistics);
+  if (!grids) return std::fprintf(stderr, "%s\n", grids.error().message().c_str()), false;
+  print_prefixes(room, grids->front().grid);
+  return true;
+}
 
 bool compare(const std::string& folder, const char* room, const std::vector<Candidate>& candidates) {
   Report report;
@@ -62,6 +124,7 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
   const auto surfaces = read_points(folder + '/' + room + ".surf.indirect.csv");
   for (const Candidate& candidate : candidates) {
     LightBakeOptions options;
+    options.nodes = nodes;
     options.method = candidate.kind;
     options.estimator.photons = candidate.photons;
     Progress silent;
@@ -85,13 +148,19 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
 
 int main(int count, char** arguments) {
   using namespace lightwell;
-  if (count != 2) return std::fprintf(stderr, "usage: bake_bench FOLDER\n"), 1;
+  if (count < 2) return std::fprintf(stderr, "usage: bake_bench [--prefixes] FOLDER\n"), 1;
   const EstimatorKind printed{"faces, as printed", "", false, make_printed_face_estimator};
   std::vector<Candidate> candidates;
   for (const EstimatorKind& kind : estimators())
     for (const uint64_t photons : {1'000'000, 8'000'000})
       if (photons > 1'000'000 || !kind.node_by_node) candidates.push_back({&kind, photons});
   candidates.push_back({&printed, 1'000'000});
+  if (count == 3 && std::string(arguments[1]) == "--prefixes") {
+    std::printf("| room | nodes | lattice, error of the filled grid %% | slices %% |\n|---|---|---|---|\n");
+    for (const char* room : {"a_cornell", "b_tworooms", "d_blob"})
+      if (!prefixes(arguments[2], room)) return 1;
+    return 0;
+  }
   std::printf(
       "| room | estimator | photons | processor seconds, all | error in free space %% | on surfaces %% |\n"
       "|---|---|---|---|---|---|\n");

@@ -91,6 +91,7 @@ bench_truth() {
 bench_estimators() {
   [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
   show "$programs/bake_bench" "$shared/truth"
+  show "$programs/bake_bench" --prefixes "$shared/truth"
 }
 
 # A row of real scenes: a default bake against the path tracer at 300 points of the scene's own surfaces. The path tracer's noise,

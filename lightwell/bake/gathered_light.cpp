@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/gathered_light.h"
 
+#include <bit>
+
 #include "lightwell/bake/node_journal.h"
 #include "lightwell/bake/sheets.h"
 
@@ -10,8 +12,8 @@ namespace {
 /// Samples of the contained luminaires at a place; rays alone find only large ones.
 constexpr int luminaire_samples = 64;
 
-/// The noise above which another set of rays is taken.
-constexpr float most_noise = 0.015f;
+/// The noise above which another set of rays is taken, by default.
+constexpr float usual_noise = 0.015f;
 /// Nodes that see more insides are hardly looked up: one set does.
 constexpr float seldom_insides = 0.5f;
 
@@ -36,6 +38,7 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
       cache_(scene.cache),
       contained_(options.contained),
       reflected_(options.reflected),
+      most_noise_(usual_noise / std::sqrt(options.effort)),
       box_(scene.box),
       seed_(options.seed),
       journal_(options.journal) {
@@ -46,7 +49,8 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
   dark_ = area > 0 ? 18 * negligible * mean_of_channels(world_.lights().power()) / area : 0;
   if (journal_ == nullptr) return;
   // The light of the surfaces tells apart scenes, lamps, materials and seeds.
-  inputs_ = 2 * cache_.fingerprint(seed_) + reflected_;
+  inputs_ = cache_.fingerprint(seed_) * 31 + static_cast<uint64_t>(reflected_);
+  inputs_ = inputs_ * 31 + std::bit_cast<uint32_t>(most_noise_);
   for (size_t i = 0; i < world_.lights().luminaires().size(); i++)
     inputs_ = inputs_ * 31 + contained_.contains(static_cast<int>(i));
 }
@@ -100,7 +104,7 @@ NodeSurroundings GatheredLight::without_much_noise(const Vec3f& position, int mo
   int sets = 1;
   const bool matters = sum.insides < seldom_insides && size_of(sum.moments) > dark_;
   float noise = sum.noise;
-  for (; matters && sets < most_sets && noise > most_noise; sets++) {
+  for (; matters && sets < most_sets && noise > most_noise_; sets++) {
     const NodeSurroundings more = around(position, random);
     sum.moments += more.moments;
     sum.insides += more.insides;

@@ -51,6 +51,7 @@ class GatheredLight {
   const SurfaceCache& cache_;
   const LuminaireSet contained_;
   const bool reflected_;
+  const float most_noise_;
   const Box3f box_;
   const uint64_t seed_;
   NodeJournal* const journal_;

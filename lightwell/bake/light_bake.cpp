@@ -29,12 +29,15 @@ constexpr size_t share_of_surroundings = 8;
 
 using Clock = std::chrono::steady_clock;
 
+int scaled(int count, float share) { return static_cast<int>(std::lround(static_cast<float>(count) * share)); }
+
 /// What one grid may take.
 struct Effort {
   int nodes = 0;  ///< on the longest axis, before it is divided
   bool adaptive = false;
   size_t most_bytes = 0;
-  bool draft = false;  ///< tested by fewer rays
+  /// Of the rays that a bake takes by default: fewer where less is asked for.
+  float rays = 1;
   Clock::time_point deadline = Clock::time_point::max();
 };
 
@@ -42,8 +45,10 @@ Effort effort_of(const LightBakeOptions& options, Clock::time_point start, bool 
   if (options.nodes > 0) return {.nodes = options.nodes};
   Effort effort{.nodes = coarse_nodes, .adaptive = true, .most_bytes = options.most_bytes};
   if (surroundings) effort.most_bytes /= share_of_surroundings;
-  effort.draft = options.draft;
-  if (effort.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
+  // An error of three times as much takes a ninth of the rays; but noise shows before it is measured.
+  constexpr float usual_error = 0.01f, least_rays = 0.25f;
+  effort.rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
+  if (options.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
   if (std::isfinite(options.seconds))
     effort.deadline =
         start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
@@ -97,8 +102,9 @@ Result<SurfaceCache> light_surfaces(const World& world, const Box3f& box, const 
   for (size_t i = 0; i < viewpoints.size(); i++)
     viewpoints[i] = viewpoint(box, shape.position(shape.node(i)), shape.cell);
   progress.stage("surfaces", 0, "cells");
-  return SurfaceCache::build(world, viewpoints,
-                             {.region = box, .cell = cell, .seed = options.seed, .threads = options.threads}, progress);
+  SurfaceCacheOptions of_cache{.region = box, .cell = cell, .seed = options.seed, .threads = options.threads};
+  of_cache.samples = scaled(of_cache.samples, std::sqrt(options.effort));
+  return SurfaceCache::build(world, viewpoints, of_cache, progress);
 }
 
 Result<NodeLight> light_nodes(const BakeScene& scene, const GridShape& shape, const LightBakeOptions& options,
@@ -196,16 +202,18 @@ Result<std::vector<BakedGrid>> light_by_parts(const Place& place, LightGrid& all
 
 /// Bakes the grids over a box; adds to the statistics.
 Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& space, const Box3f& box,
-                                        const LightBakeOptions& options, const Effort& effort, Progress& progress,
+                                        LightBakeOptions options, const Effort& effort, Progress& progress,
                                         LightBakeStatistics& statistics) {
+  options.estimator.effort = effort.rays;
   const EstimatorOptions& estimator = options.estimator;
   LW_TRY(shapes, place_nodes(world, space, box, effort));
-  const float cell = max_component(shapes.front().cell) / static_cast<float>(effort.adaptive ? 6 : 3);
+  const float cells_a_cell = effort.adaptive ? 6 * std::sqrt(std::sqrt(effort.rays)) : 3;
+  const float cell = max_component(shapes.front().cell) / cells_a_cell;
   LW_TRY(cache, light_surfaces(world, box, shapes.front(), cell, estimator, progress));
   const BakeScene scene{world, space, cache, box};
   const GatheredLight light(scene, estimator);
   TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
-  if (effort.draft) testing.rays /= 4;
+  testing.rays = scaled(testing.rays, effort.rays);
   LW_TRY(test, TestPoints::gather(light, testing, progress));
 
   statistics.rays += cache.rays();
@@ -220,8 +228,8 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   if (effort.adaptive) {
     // Points of their own: what the grid was fitted to would tell nothing of its error.
     TestPointOptions fitting = testing;
-    fitting.surface_points = 4000;
-    fitting.free_points = 1000;
+    fitting.surface_points = static_cast<size_t>(scaled(4000, std::sqrt(effort.rays)));
+    fitting.free_points = static_cast<size_t>(scaled(1000, std::sqrt(effort.rays)));
     fitting.rays /= 4;
     fitting.near = 8;
     fitting.seed ^= 0xb71c;

@@ -97,7 +97,7 @@ class SurfaceCacheBuilder {
     solve();
     if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
     smooth();
-    cache_.add_parents();
+    cache_.finish();
     return {};
   }
 
@@ -293,12 +293,15 @@ Result<SurfaceCache> SurfaceCache::build(const World& world, std::span<const Vec
   return cache;
 }
 
-void SurfaceCache::add_parents() {
-  std::unordered_map<uint64_t, float> counts;
+/// Makes the tables of what is looked up.
+void SurfaceCache::finish() {
+  ByCell<float> counts;
+  light_.reserve(irradiance_.size());
   std::vector<uint64_t> cells(irradiance_.size());  // in the order of their numbers, so that the means are reproducible
   for (const auto& [cell, number] : numbers_) cells[number] = cell;
   for (size_t number = 0; number < cells.size(); number++) {
     uint64_t key = cells[number];
+    light_.emplace(key, irradiance_[number]);
     for (int level = 0; level < parent_levels; level++) {
       key = SurfaceCells::parent(key);
       Vec3f& mean = parents_[key];
@@ -309,7 +312,7 @@ void SurfaceCache::add_parents() {
 
 Vec3f SurfaceCache::irradiance(const Vec3f& position, const Vec3f& facing) const {
   uint64_t key = cells_.at(position, facing);
-  if (const auto found = numbers_.find(key); found != numbers_.end()) return irradiance_[found->second];
+  if (const auto found = light_.find(key); found != light_.end()) return found->second;
   for (int level = 0; level < parent_levels; level++) {
     key = SurfaceCells::parent(key);
     if (const auto found = parents_.find(key); found != parents_.end()) return found->second;

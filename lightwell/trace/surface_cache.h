@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tsl/robin_map.h>
+
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "lightwell/base/progress.h"
@@ -47,12 +48,22 @@ class SurfaceCache {
 
  private:
   explicit SurfaceCache(const SurfaceCells& cells) : cells_(cells) {}
-  void add_parents();
+  void finish();
 
   SurfaceCells cells_;
-  std::unordered_map<uint64_t, uint32_t> numbers_;  // of cells, into irradiance_
+  /// Keys of cells differ in few bits.
+  struct Mixed {
+    size_t operator()(uint64_t cell) const {
+      cell *= 0x9e3779b97f4a7c15;
+      return cell ^ cell >> 32;
+    }
+  };
+  template <typename Value>
+  using ByCell = tsl::robin_map<uint64_t, Value, Mixed>;
+  ByCell<uint32_t> numbers_;  // into irradiance_; while it is built
   std::vector<Vec3f> irradiance_;
-  std::unordered_map<uint64_t, Vec3f> parents_;  // mean irradiance of the cells in larger ones
+  ByCell<Vec3f> light_;    // the same in one step: most of what gathering waits for
+  ByCell<Vec3f> parents_;  // mean irradiance of the cells in larger ones
   uint64_t rays_ = 0;
 
   friend class SurfaceCacheBuilder;

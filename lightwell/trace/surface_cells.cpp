@@ -20,10 +20,16 @@ static_assert(3 * axis_bits + level_bits + facing_bits <= 63);
 /// Cubes grow from this many of their size outside of the region.
 constexpr float near_cubes = 16;
 
+/// Without a call of the C library's, which processors without SSE 4.1 would need: this runs for each ray.
+int64_t round_down(float x) {
+  const auto truncated = static_cast<int64_t>(x);
+  return truncated - (static_cast<float>(truncated) > x);
+}
+
 /// A facing is rounded to halves on each axis, so that walls along the axes lie in the middle of their cell.
 uint64_t facing_number(const Vec3f& facing) {
   uint64_t number = 0;
-  for (int a = 0; a < 3; a++) number = number * 5 + static_cast<uint64_t>(std::lround(2 * facing[a]) + 2);
+  for (int a = 0; a < 3; a++) number = number * 5 + static_cast<uint64_t>(2 * facing[a] + 2.5f);
   return number;
 }
 
@@ -44,7 +50,7 @@ uint64_t SurfaceCells::at(const Vec3f& position, const Vec3f& facing) const {
   // A wall that lies where two cubes meet is moved into one of them, whatever rounding did to its points.
   const Vec3f inside = (position - region_.lo) / size + facing * 0.37f;
   std::array<int64_t, 3> cube;
-  for (size_t a = 0; a < 3; a++) cube[a] = static_cast<int64_t>(std::floor(inside.e[a]));
+  for (size_t a = 0; a < 3; a++) cube[a] = round_down(inside.e[a]);
   return pack(cube, static_cast<uint64_t>(level), facing_number(facing));
 }
 

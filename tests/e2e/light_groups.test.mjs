@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Groups of lamps, switched, dimmed and coloured with their bounced light: a red, a blue and a green one in a grey room.
+// Groups of lamps, switched, dimmed and coloured with their bounced light: a red, a blue and a green one in a grey room. And the sky's
+// own light apart from what the ground and a ball reflect of it.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
@@ -34,6 +35,12 @@ function packOf(kind, options) {
   ['Room', 'Globe', 'Red.001', 'Blue.001'].forEach((name, i) => (gltf.nodes[i].name = name));
   writeFileSync(file, JSON.stringify(gltf));
   return bake(file, `${folder}/${kind}.lw.glb`, { groups: 'name', ...options });
+}
+
+/** A ball over nothing, under a green sky: half of its light comes straight from it. */
+function packUnderTheSky() {
+  const file = writeScene(`${folder}/ball.gltf`, [{ mesh: sphere(0.5), material: GREY }]);
+  return bake(file, `${folder}/ball.lw.glb`, { environment: '0,0.5,0', 'sky-apart': true });
 }
 
 const PACKS = { regular: packOf('regular', {}), refined: packOf('refined', { grid: 'auto', budget: '9k' }) };
@@ -118,4 +125,36 @@ test('the settings have a slider for each group', async (t) => {
     return lamps.filter(({ color }) => color.b > 0).length;
   });
   assert.equal(blue, 0);
+});
+
+test('the sky’s own light is dimmed apart from what surfaces reflect', async (t) => {
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/ball.lw.glb'), '/ball.lw.glb': packUnderTheSky() }));
+  const { page, errors } = await forTest(t, openPage(browser, { width: 160, height: 120 }));
+  await page.goto(server.url);
+  await complete(page);
+  const brightness = (factor) =>
+    page.evaluate(async (of) => {
+      const view = document.querySelector('lightwell-view');
+      view.setAttribute('tone', 'none');
+      const { texture } = view.pack.grids[0];
+      view.pack.setSkyLight(of);
+      while (view.pack.grids[0].texture === texture) await new Promise(requestAnimationFrame);
+      view.draw();
+      const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
+      const pixel = new Uint8Array(4);
+      gl.readPixels(gl.drawingBufferWidth / 2, gl.drawingBufferHeight / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+      return pixel[1];
+    }, factor);
+  const [all, half, none] = [await brightness(1), await brightness(0.5), await brightness(0)];
+  assert.ok(all > half && half > none, `${all}, ${half}, ${none}`);
+  assert.ok(none < all / 4, 'a ball by itself reflects next to nothing onto itself');
+  assert.match(await page.evaluate(() => {
+    try {
+      document.querySelector('lightwell-view').pack.setSkyLight(-1);
+    } catch ({ message }) {
+      return message;
+    }
+  }), /no number or three of at least 0/);
+  assert.equal(await page.evaluate(() => document.querySelector('lightwell-view').pack.lightGroups.length), 0);
+  assert.deepEqual(errors, []);
 });

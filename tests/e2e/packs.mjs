@@ -22,9 +22,9 @@ export function writeSamplePack(file, triangles) {
   return file;
 }
 
-/** Bakes a scene with few photons and a coarse grid; `options` are those of the command. */
+/** Bakes a scene with few photons and a coarse grid; `options` are those of the command, true for a flag. */
 export function bake(scene, file, options = {}) {
-  const flags = Object.entries({ photons: 100_000, grid: 8, ...options }).flatMap(([name, value]) => [`--${name}`, String(value)]);
+  const flags = Object.entries({ photons: 100_000, grid: 8, ...options }).flatMap(([name, value]) => (value === true ? [`--${name}`] : [`--${name}`, String(value)]));
   execFileSync(`${BIN}/lightwell`, ['bake', scene, '-o', file, '--quiet', ...flags]);
   return file;
 }
