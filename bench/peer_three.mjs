@@ -18,10 +18,10 @@ const SCENES = ['a_cornell', 'b_tworooms', 'd_blob'];
 /** Half of the light that is missing comes with each or more; what nine leave is extrapolated. */
 const PASSES = 9;
 /**
- * A node draws the scene six times a pass: all 20,480 triangles of the blob would take hours, and change surfaces by 0.5 %. What is
- * drawn of a finer scene is its coarsest level with at least so many.
+ * A node draws the scene six times a pass: all 20,480 triangles of the blob would take hours, and change surfaces by 0.5 %. Of a
+ * scene with more than so many the coarsest level is drawn.
  */
-const COARSE_TRIANGLES = 1500;
+const MOST_TRIANGLES = 3000;
 /** Paths a texel of the light map; a node sees hundreds of texels. */
 const SAMPLES = 128;
 const HEADER = 'x,y,z,nx,ny,nz,r,g,b';
@@ -93,8 +93,8 @@ try {
     const [pack, coarse] = ['pack.lw.glb', 'coarse.glb'].map((name) => join(folder, name));
     bakeWithLightwell(scene, pack, '--grid', '32');
     const triangles = bakeWithLightwell(scene, pack);
-    const isFine = triangles > COARSE_TRIANGLES;
-    if (isFine) lightwell('export', pack, '-o', coarse, '--level', String(COARSE_TRIANGLES / triangles));
+    const isFine = triangles > MOST_TRIANGLES;
+    if (isFine) lightwell('export', pack, '-o', coarse, '--level', '0');
     await bakeWithThree(scene, isFine ? coarse : `${shared}/truth/${scene}.glb`, Number(nodes));
   }
 } finally {

@@ -93,7 +93,7 @@ bench_estimators() {
   show "$programs/bake_bench" "$shared/truth"
 }
 
-# three.js's own baked light grid of 16 nodes an axis beside Lightwell's; 32 take two thirds of an hour (node bench/peer_three.mjs SHARED 32).
+# three.js's own baked light grid of 16 nodes an axis beside Lightwell's; 32 take an hour (node bench/peer_three.mjs SHARED 32).
 bench_peer() {
   [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
   command -v chromium >/dev/null || { missing chromium; return; }
