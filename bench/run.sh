@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace speed truth estimators real curve mesh light fetch server sizes frame growth direct)
+parts=(bake trace speed truth estimators peer real curve mesh light fetch server sizes frame growth direct)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -92,6 +92,13 @@ bench_estimators() {
   [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
   show "$programs/bake_bench" "$shared/truth"
   show "$programs/bake_bench" --prefixes "$shared/truth"
+}
+
+# three.js's own baked light grid of 16 nodes an axis beside Lightwell's; 32 take an hour (node bench/peer_three.mjs SHARED 32).
+bench_peer() {
+  [ -d "$shared/truth" ] || { missing "$shared/truth"; return; }
+  command -v chromium >/dev/null || { missing chromium; return; }
+  show node bench/peer_three.mjs "$shared"
 }
 
 # A row of real scenes: a default bake against the path tracer at 300 points of the scene's own surfaces. The path tracer's noise,
