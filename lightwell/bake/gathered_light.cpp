@@ -38,7 +38,7 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
       cache_(scene.cache),
       contained_(options.contained),
       reflected_(options.reflected),
-      most_noise_(usual_noise / std::sqrt(options.effort)),
+      most_noise_(usual_noise / std::sqrt(std::sqrt(options.effort))),
       box_(scene.box),
       seed_(options.seed),
       journal_(options.journal) {

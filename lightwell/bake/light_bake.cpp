@@ -207,7 +207,7 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   options.estimator.effort = effort.rays;
   const EstimatorOptions& estimator = options.estimator;
   LW_TRY(shapes, place_nodes(world, space, box, effort));
-  const float cells_a_cell = effort.adaptive ? 6 * std::sqrt(std::sqrt(effort.rays)) : 3;
+  const float cells_a_cell = effort.adaptive ? 6 : 3;
   const float cell = max_component(shapes.front().cell) / cells_a_cell;
   LW_TRY(cache, light_surfaces(world, box, shapes.front(), cell, estimator, progress));
   const BakeScene scene{world, space, cache, box};
