@@ -91,7 +91,7 @@ test('the visitor walks when the box is ticked, and circles again when it is not
   const { page, scripts, errors } = await openViewer(t, WIDE);
   await complete(page);
   await openSettings(page);
-  assert.ok(!scripts.some((path) => /walk/.test(path)), `${scripts}`);
+  assert.ok(!scripts.some((path) => /extras/.test(path)), `${scripts}`);
   await page.getByLabel('Walk').check();
   const before = await page.evaluate(() => document.querySelector('lightwell-view').camera.position.toArray());
   await page.waitForFunction(() => document.querySelector('lightwell-view').shadowRoot.activeElement?.tabIndex === 0);

@@ -6,6 +6,7 @@ import type { View } from './orbit.js';
 export interface LightwellViewDetails {
   load: null;
   firstframe: null;
+  frame: null;
   progress: Progress;
   connection: { state: ConnectionEvent['state'] };
   complete: null;
