@@ -16,6 +16,7 @@ export interface LightwellViewAttributes {
   tone?: 'neutral' | 'none';
   strategy?: 'interleave' | 'geometry' | 'light';
   wireframe?: boolean | '';
+  'auto-rotate'?: boolean | '';
 }
 
 /** The attributes that change the picture. */
@@ -30,6 +31,7 @@ export const DRAWN_ATTRIBUTES = [
   'strategy',
   'wireframe',
   'aria-label',
+  'auto-rotate',
 ];
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;

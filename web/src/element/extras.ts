@@ -3,6 +3,7 @@
 // What few visitors ask for. The element fetches this script the first time that one of them does: it imports nothing that the element
 // has, and works on what it is given (docs/decisions/008-size-of-the-page.md).
 import type { parseView } from './attributes.js';
+import { autoRotate } from './auto_rotate.js';
 import type { LightwellView } from './lightwell_view.js';
 import { walk } from './walk.js';
 
@@ -17,5 +18,6 @@ export interface Kit {
 
 /** What begins when an attribute says so. */
 export const attributes: Record<string, (view: LightwellView, kit: Kit) => void> = {
+  'auto-rotate': autoRotate,
   'camera-controls': walk,
 };
