@@ -17,6 +17,7 @@ export interface LightwellViewAttributes {
   strategy?: 'interleave' | 'geometry' | 'light';
   wireframe?: boolean | '';
   'auto-rotate'?: boolean | '';
+  measure?: boolean | '';
 }
 
 /** The attributes that change the picture. */
@@ -32,6 +33,7 @@ export const DRAWN_ATTRIBUTES = [
   'wireframe',
   'aria-label',
   'auto-rotate',
+  'measure',
 ];
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;

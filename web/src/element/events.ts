@@ -11,6 +11,7 @@ export interface LightwellViewDetails {
   connection: { state: ConnectionEvent['state'] };
   complete: null;
   'camera-change': View;
+  measure: { metres: number; from: View['target']; to: View['target'] };
   error: { reason: FailureEvent['reason'] | 'unsupported'; message: string };
 }
 

@@ -5,6 +5,7 @@
 import type { parseView } from './attributes.js';
 import { autoRotate } from './auto_rotate.js';
 import type { LightwellView } from './lightwell_view.js';
+import { measure } from './measure.js';
 import { walk } from './walk.js';
 
 export { focus } from './focus.js';
@@ -20,4 +21,5 @@ export interface Kit {
 export const attributes: Record<string, (view: LightwellView, kit: Kit) => void> = {
   'auto-rotate': autoRotate,
   'camera-controls': walk,
+  measure,
 };

@@ -33,7 +33,7 @@ const KIT = { parseView };
  * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
  * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
- * "geometry", "light"), `wireframe`, `auto-rotate`.
+ * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`.
  *
  * Events: `load` when the scene is there, `firstframe`, `frame` after each, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).
