@@ -160,3 +160,20 @@ test('the cells and nodes of the light can be seen, and are gone again', async (
   assert.deepEqual(await shown(), []);
   assert.deepEqual(errors, []);
 });
+
+test('the switches of measuring and of the raking light follow the element', async (t) => {
+  const { page, errors } = await openViewer(t, WIDE);
+  await complete(page);
+  await openSettings(page);
+  await page.getByLabel('Raking light').check();
+  await page.getByRole('application').waitFor();
+  await page.getByLabel('Raking light').uncheck();
+  await page.getByRole('application').waitFor({ state: 'detached' });
+  await page.getByLabel('Measure').check();
+  await page.mouse.click(600, 200);
+  await page.mouse.click(700, 400);
+  await page.locator('lightwell-view output').filter({ hasText: / m$/ }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => !document.querySelector('#measure').checked);
+  assert.deepEqual(errors, []);
+});

@@ -18,6 +18,7 @@ export interface LightwellViewAttributes {
   wireframe?: boolean | '';
   'auto-rotate'?: boolean | '';
   measure?: boolean | '';
+  'raking-light'?: boolean | string;
 }
 
 /** The attributes that change the picture. */
@@ -34,6 +35,7 @@ export const DRAWN_ATTRIBUTES = [
   'aria-label',
   'auto-rotate',
   'measure',
+  'raking-light',
 ];
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { PerspectiveCamera, Scene } from 'three';
+import { DirectionalLight, PerspectiveCamera, Scene } from 'three';
 import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
@@ -24,7 +24,7 @@ const VIEW_REST = 150;
 /** The script of what few ask for, fetched for the first of them. */
 const extras = () => import('./extras.js');
 /** What it is given. */
-const KIT = { parseView };
+const KIT = { DirectionalLight, parseQuantity, parseView };
 
 /**
  * `<lightwell-view src="room.lw.glb" camera-controls>` shows a pack.
@@ -33,7 +33,7 @@ const KIT = { parseView };
  * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
  * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
- * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`.
+ * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`.
  *
  * Events: `load` when the scene is there, `firstframe`, `frame` after each, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).
@@ -362,6 +362,8 @@ export class LightwellView extends Base implements ContextHolder {
       case 'aria-label':
         stage.canvas.setAttribute('role', 'img');
         return stage.canvas.setAttribute('aria-label', value ?? DEFAULT_LABEL);
+      case 'raking-light':
+        this.#apply('light');
     }
     if (value !== null) this.#begin(name);
   }
@@ -381,7 +383,7 @@ export class LightwellView extends Base implements ContextHolder {
 
   #setLight(light: (typeof LIGHTS)[number]): void {
     for (const grid of this.#pack?.grids ?? []) grid.visible = light === 'all' || light === 'indirect';
-    for (const lamp of this.#pack?.lamps ?? []) lamp.visible = light === 'all' || light === 'direct';
+    for (const lamp of this.#pack?.lamps ?? []) lamp.visible = (light === 'all' || light === 'direct') && !this.hasAttribute('raking-light');
     this.#stage!.invalidateShadows();
   }
 

@@ -11,6 +11,7 @@ import { bindSharing } from './sharing.js';
 const HOW_TO: Record<string, string> = {
   walk: 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.',
   measure: 'Click two points; escape ends.',
+  'raking-light': 'Drag the lamp in the upper corner.',
 };
 /** Stops to both sides of none, and of the pack's own exposure. */
 const LEEWAY = 4;
@@ -30,7 +31,7 @@ export function bindSettings(view: LightwellView, three: Three): void {
   bindLightGroups(view);
   bindCameras(view);
   bindSharing(view);
-  for (const attribute of ['wireframe', 'measure']) bindSwitch(view, attribute);
+  for (const attribute of ['wireframe', 'measure', 'raking-light']) bindSwitch(view, attribute);
 }
 
 /** A box that is ticked while the element has the attribute of its name. */
