@@ -11,7 +11,9 @@ import type { LightwellView } from './lightwell_view.js';
 const ANGLE = (3 / 4) * Math.PI;
 const HEIGHT = Math.PI / 9;
 /** A white surface that faces the lamp would be so many times as bright as white: what is grazed has its full range. */
-const BRIGHTNESS = 2;
+const BRIGHTNESS = 1.4;
+/** All other light is so much weaker while the lamp is on: it fills the shadows. */
+const FILL = 1 / 4;
 const SHADOW_MAP_SIZE = 2048;
 
 const lamps = new WeakMap<LightwellView, RakingLamp>();
@@ -40,13 +42,18 @@ class RakingLamp {
     lamp.shadow.bias = -0.0005;
     scene.add(lamp, lamp.target);
     view.shadowRoot!.append(this.#handle.element);
-    const before = scene.onBeforeRender;
+    const { onBeforeRender, onAfterRender } = scene;
     scene.onBeforeRender = (renderer, ...rest) => {
-      before.call(scene, renderer, ...rest);
+      onBeforeRender.call(scene, renderer, ...rest);
+      renderer.toneMappingExposure *= FILL;
       this.#follow(renderer, view.camera);
     };
+    scene.onAfterRender = (renderer, ...rest) => {
+      renderer.toneMappingExposure /= FILL;
+      onAfterRender.call(scene, renderer, ...rest);
+    };
     end.addEventListener('abort', () => {
-      scene.onBeforeRender = before;
+      Object.assign(scene, { onBeforeRender, onAfterRender });
       scene.remove(lamp, lamp.target);
       lamp.dispose();
       this.#handle.element.remove();

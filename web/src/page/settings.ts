@@ -37,11 +37,12 @@ export function bindSettings(view: LightwellView, three: Three): void {
 /** A box that is ticked while the element has the attribute of its name. */
 function bindSwitch(view: LightwellView, attribute: string): void {
   const box = document.getElementById(attribute) as HTMLInputElement;
-  box.addEventListener('change', () => {
-    view.toggleAttribute(attribute, box.checked);
+  box.addEventListener('change', () => view.toggleAttribute(attribute, box.checked));
+  const show = () => {
+    box.checked = view.hasAttribute(attribute);
     say((box.checked && HOW_TO[attribute]) || '');
-  });
-  new MutationObserver(() => (box.checked = view.hasAttribute(attribute))).observe(view, { attributeFilter: [attribute] });
+  };
+  new MutationObserver(show).observe(view, { attributeFilter: [attribute] });
 }
 
 function say(words: string): void {
