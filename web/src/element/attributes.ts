@@ -19,6 +19,7 @@ export interface LightwellViewAttributes {
   'auto-rotate'?: boolean | '';
   measure?: boolean | '';
   'raking-light'?: boolean | string;
+  'any-three'?: boolean | '';
 }
 
 /** The attributes that change the picture. */
