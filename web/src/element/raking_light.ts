@@ -32,6 +32,7 @@ class RakingLamp {
   readonly #handle = createHandle((x, y) => this.#aim(x, y));
   /** Where the light comes from, to the right, up and towards the camera. */
   #from: [number, number, number] = [0, 0, 1];
+  #frame = 0;
 
   constructor(view: LightwellView, lamp: DirectionalLight, end: AbortSignal) {
     this.#view = view;
@@ -65,10 +66,13 @@ class RakingLamp {
     this.#handle.put(Math.cos(height) * Math.cos(angle), Math.cos(height) * Math.sin(angle));
   }
 
-  /** From a place in the disc of directions. */
+  /** From a place in the disc of directions. It is seen in the next frame, shadow and all: `invalidate` takes its time. */
   #aim(x: number, y: number): void {
     this.#from = [x, y, Math.sqrt(Math.max(0, 1 - x * x - y * y))];
-    this.#view.invalidate();
+    this.#frame ||= requestAnimationFrame(() => {
+      this.#frame = 0;
+      this.#view.draw();
+    });
   }
 
   /** Goes where the camera goes, before a frame is drawn; its shadow is drawn anew when it has moved. */
