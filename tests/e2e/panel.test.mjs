@@ -91,7 +91,7 @@ test('the visitor walks when the box is ticked, and circles again when it is not
   const { page, scripts, errors } = await openViewer(t, WIDE);
   await complete(page);
   await openSettings(page);
-  assert.ok(!scripts.some((path) => /walk/.test(path)), `${scripts}`);
+  assert.ok(!scripts.some((path) => /extras/.test(path)), `${scripts}`);
   await page.getByLabel('Walk').check();
   const before = await page.evaluate(() => document.querySelector('lightwell-view').camera.position.toArray());
   await page.waitForFunction(() => document.querySelector('lightwell-view').shadowRoot.activeElement?.tabIndex === 0);
@@ -158,5 +158,22 @@ test('the cells and nodes of the light can be seen, and are gone again', async (
   await page.getByLabel('Cells of light').uncheck();
   await page.getByLabel('Nodes of light').uncheck();
   assert.deepEqual(await shown(), []);
+  assert.deepEqual(errors, []);
+});
+
+test('the switches of measuring and of the raking light follow the element', async (t) => {
+  const { page, errors } = await openViewer(t, WIDE);
+  await complete(page);
+  await openSettings(page);
+  await page.getByLabel('Raking light').check();
+  await page.getByRole('application').waitFor();
+  await page.getByLabel('Raking light').uncheck();
+  await page.getByRole('application').waitFor({ state: 'detached' });
+  await page.getByLabel('Measure').check();
+  await page.mouse.click(600, 200);
+  await page.mouse.click(700, 400);
+  await page.locator('lightwell-view output').filter({ hasText: / m$/ }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => !document.querySelector('#measure').checked);
   assert.deepEqual(errors, []);
 });

@@ -16,6 +16,10 @@ export interface LightwellViewAttributes {
   tone?: 'neutral' | 'none';
   strategy?: 'interleave' | 'geometry' | 'light';
   wireframe?: boolean | '';
+  'auto-rotate'?: boolean | '';
+  measure?: boolean | '';
+  'raking-light'?: boolean | string;
+  'any-three'?: boolean | '';
 }
 
 /** The attributes that change the picture. */
@@ -30,6 +34,9 @@ export const DRAWN_ATTRIBUTES = [
   'strategy',
   'wireframe',
   'aria-label',
+  'auto-rotate',
+  'measure',
+  'raking-light',
 ];
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;

@@ -6,10 +6,12 @@ import type { View } from './orbit.js';
 export interface LightwellViewDetails {
   load: null;
   firstframe: null;
+  frame: null;
   progress: Progress;
   connection: { state: ConnectionEvent['state'] };
   complete: null;
   'camera-change': View;
+  measure: { metres: number; from: View['target']; to: View['target'] };
   error: { reason: FailureEvent['reason'] | 'unsupported'; message: string };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { PerspectiveCamera, Scene } from 'three';
+import { DirectionalLight, PerspectiveCamera, Scene } from 'three';
 import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
@@ -21,6 +21,11 @@ const LONGEST_REPLACED_PAUSE = 60_000;
 /** The stream is told the view once that has rested for so long, in milliseconds. */
 const VIEW_REST = 150;
 
+/** The script of what few ask for, fetched for the first of them. */
+const extras = () => import('./extras.js');
+/** What it is given. */
+const KIT = { DirectionalLight, parseQuantity, parseView };
+
 /**
  * `<lightwell-view src="room.lw.glb" camera-controls>` shows a pack.
  *
@@ -28,12 +33,12 @@ const VIEW_REST = 150;
  * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
  * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
- * "geometry", "light"), `wireframe`.
+ * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`, `any-three`.
  *
- * Events: `load` when the scene is there, `firstframe`, `progress` (detail: geometry, light, bytes, rate ...), `connection`
+ * Events: `load` when the scene is there, `firstframe`, `frame` after each, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).
  *
- * Slots: "progress" and "error" take the places of the bar and of the message.
+ * Slots: "progress" and "error" take the places of the bar and of the message; "hotspot-NAME" stands at a point of the scene.
  *
  * Of many elements those near the screen draw, twelve at most, and six on a phone; another one shows its last picture, and loads anew
  * when it is wanted again. What the page has put into `scene` stays.
@@ -101,6 +106,11 @@ export class LightwellView extends Base implements ContextHolder {
     else if (this.#orbit !== null) this.#orbit.view = view;
   }
 
+  /** Shows again what was to be seen at first. */
+  reset(): void {
+    this.#orbit?.reset();
+  }
+
   /** The names of the pack's cameras, in the file's order. */
   get cameraNames(): string[] {
     return cameraNames(this.#pack);
@@ -111,6 +121,11 @@ export class LightwellView extends Base implements ContextHolder {
     const camera = cameraNamed(this.#pack, name);
     this.#stage?.takeFieldOfView(camera);
     this.#orbit?.lookThrough(camera, this.#pack!);
+  }
+
+  /** Brings the camera to a view, a hotspot's or a file camera's: resolves when it is there, rejects when there is none of the name. */
+  async goTo(place: View | string): Promise<void> {
+    return (await extras()).goTo(this, place, KIT);
   }
 
   /** Dims, colours or switches a group of the pack's lamps with all of its light: LightwellScene.setLightGroup. Stays when `src` changes. */
@@ -150,6 +165,9 @@ export class LightwellView extends Base implements ContextHolder {
 
   connectedCallback(): void {
     if (this.#overlay === null) {
+      const find = () => this.querySelector('[slot^=hotspot]') && extras().then(({ hotspots }) => hotspots(this, KIT));
+      new MutationObserver(find).observe(this, { childList: true });
+      void find();
       this.#overlay = new Overlay(this.attachShadow({ mode: 'open' }));
       for (const use of ['pointerenter', 'focusin']) this.addEventListener(use, () => this.#wake());
       this.#apply('poster');
@@ -186,6 +204,7 @@ export class LightwellView extends Base implements ContextHolder {
     this.#orbit = new Orbit(this.camera, stage.canvas, () => this.#onView());
     stage.beforeFrame = (time) => this.#orbit!.update(time);
     stage.afterFrame = () => this.#onFrame();
+    stage.canvas.addEventListener('dblclick', (event) => extras().then(({ focus }) => focus(this, event)));
     this.#overlay!.setCanvas(stage.canvas);
     stage.setRunning(this.#near);
     stage.resize(this.clientWidth, this.clientHeight);
@@ -253,7 +272,7 @@ export class LightwellView extends Base implements ContextHolder {
     const current = () => loader === this.#loader;
     this.#overlay!.setProgress({ done: 0, total: 0 });
     const onConnection = (state: ConnectionEvent['state']) => current() && this.#emit('connection', { state });
-    loader.setRenderer(stage.renderer).setOptions({ strategy, lookup, onConnection }).load(
+    loader.setRenderer(stage.renderer).setOptions({ strategy, lookup, onConnection, anyThree: this.hasAttribute('any-three') }).load(
       src,
       (pack) => this.#show(pack),
       ({ loaded, total }) => current() && this.#overlay!.setProgress({ done: loaded, total }),
@@ -324,7 +343,7 @@ export class LightwellView extends Base implements ContextHolder {
         return this.#firstFrame ? undefined : this.#overlay!.setPoster(value);
       case 'camera-controls':
         this.#orbit!.allow(value);
-        return void (value === 'walk' && import('./walk.js').then(({ walk }) => walk(this)));
+        return value === 'walk' ? this.#begin(name) : undefined;
       case 'camera-orbit':
       case 'camera-target':
         return this.#setCamera();
@@ -342,8 +361,16 @@ export class LightwellView extends Base implements ContextHolder {
         return this.#pack?.setWireframe(value !== null);
       case 'aria-label':
         stage.canvas.setAttribute('role', 'img');
-        stage.canvas.setAttribute('aria-label', value ?? DEFAULT_LABEL);
+        return stage.canvas.setAttribute('aria-label', value ?? DEFAULT_LABEL);
+      case 'raking-light':
+        this.#apply('light');
     }
+    if (value !== null) this.#begin(name);
+  }
+
+  /** What an attribute says is done by the script of what few ask for. */
+  #begin(name: string): void {
+    void extras().then(({ attributes }) => attributes[name]!(this, KIT));
   }
 
   #setCamera(): void {
@@ -356,7 +383,7 @@ export class LightwellView extends Base implements ContextHolder {
 
   #setLight(light: (typeof LIGHTS)[number]): void {
     for (const grid of this.#pack?.grids ?? []) grid.visible = light === 'all' || light === 'indirect';
-    for (const lamp of this.#pack?.lamps ?? []) lamp.visible = light === 'all' || light === 'direct';
+    for (const lamp of this.#pack?.lamps ?? []) lamp.visible = (light === 'all' || light === 'direct') && !this.hasAttribute('raking-light');
     this.#stage!.invalidateShadows();
   }
 
@@ -374,6 +401,7 @@ export class LightwellView extends Base implements ContextHolder {
   }
 
   #onFrame(): void {
+    this.#emit('frame', null);
     if (this.#firstFrame || this.#pack === null) return;
     this.#firstFrame = true;
     this.#overlay!.hidePoster();

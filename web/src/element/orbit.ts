@@ -46,7 +46,6 @@ export class Orbit {
     this.#controls.zoomToCursor = true;
     this.#controls.addEventListener('change', () => this.#change());
     canvas.addEventListener('keydown', (event) => this.#key(event));
-    canvas.addEventListener('dblclick', () => this.#enabled && this.reset());
     canvas.addEventListener('pointerdown', (event) => (this.#swipe = event.pointerType === 'touch' && event.isPrimary ? event : null));
     canvas.addEventListener('pointermove', (event) => this.#scrolls(event) && event.stopPropagation());
     // A browser scrolls by two fingers where it scrolls by one, unless it is told not to by the first of their moves.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Walking through a pack at eye height. The element fetches this script when its attribute says camera-controls="walk": it imports
-// nothing that the element has, and works on what it is given (docs/decisions/008-size-of-the-page.md).
-import type { Camera, Intersection, Object3D, Raycaster, Vector3 } from 'three';
+// Walking through a pack at eye height, while the element's attribute says camera-controls="walk".
+import type { Camera, Vector3 } from 'three';
 import type { LightwellView } from './lightwell_view.js';
+import { nearestHit } from './pick.js';
 import { createStick } from './stick.js';
 
 /** Of a grown-up, in metres; in a scene that is lower than two of them all of this is as much smaller. */
@@ -149,7 +149,7 @@ class Walker {
     way.set(right * Math.cos(theta) - ahead * Math.sin(theta), 0, -right * Math.sin(theta) - ahead * Math.cos(theta));
     way.clampLength(0, 1).multiplyScalar(SPEED * size * seconds * (this.#running ? RUN : 1));
     const eye = position.clone().add(this.#free(position, way));
-    const floor = this.#hit(eye, way.clone().set(0, -1, 0), 3 * EYE_HEIGHT * size);
+    const floor = nearestHit(this.#view.pack!, eye, way.clone().set(0, -1, 0), 3 * EYE_HEIGHT * size);
     const rise = floor === undefined ? 0 : EYE_HEIGHT * size - floor.distance;
     eye.y += Math.sign(rise) * Math.min(Math.abs(rise), CLIMB * size * seconds);
     return eye;
@@ -177,19 +177,10 @@ class Walker {
     const length = way.length();
     if (length === 0) return undefined;
     const direction = way.clone().divideScalar(length);
-    const hit = this.#hit(origin, direction, length + SLANT * girth);
+    const hit = nearestHit(this.#view.pack!, origin, direction, length + SLANT * girth);
     const normal = hit?.face?.normal.clone().transformDirection(hit.object.matrixWorld);
     if (hit === undefined || normal === undefined) return undefined;
     return (hit.distance - length) * Math.abs(normal.dot(direction)) < girth ? normal : undefined;
-  }
-
-  /** The nearest surface of the pack along a ray. */
-  #hit(origin: Vector3, direction: Vector3, far: number): Intersection | undefined {
-    const hits: Intersection[] = [];
-    // All that a mesh asks a ray caster for; three.js's own would have to be imported.
-    const caster = { ray: { origin, direction }, near: 0, far } as Raycaster;
-    this.#view.pack!.traverseVisible((object: Object3D) => 'isMesh' in object && object.raycast(caster, hits));
-    return hits.sort((a, b) => a.distance - b.distance)[0];
   }
 
   /** Puts the eye somewhere and turns it, to the left and up. */

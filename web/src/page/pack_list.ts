@@ -30,6 +30,8 @@ export async function bindPacks(view: LightwellView, hash: Hash): Promise<void> 
   select.selectedIndex = packs.findIndex(({ name }) => wanted === null || [name, displayName(name)].includes(wanted));
   select.hidden = packs.length < 2;
   title.hidden = !select.hidden;
+  const tile = async () => (await import('./tiles.js')).bindTiles(view, select, packs);
+  if (packs.length > 1) view.addEventListener('load', tile, { once: true });
   if (select.selectedIndex < 0) throw new Error(`This server has no pack${wanted === null ? 's' : ` “${wanted}”`}.`);
   show(hash.view);
 }

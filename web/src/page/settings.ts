@@ -8,7 +8,11 @@ import { brickEdges, gridNodes, type Three } from './light_cells.js';
 import { bindLightGroups } from './light_groups.js';
 import { bindSharing } from './sharing.js';
 
-const HOW_TO_WALK = 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.';
+const HOW_TO: Record<string, string> = {
+  walk: 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.',
+  measure: 'Click two points; escape ends.',
+  'raking-light': 'Drag the lamp in the upper corner.',
+};
 /** Stops to both sides of none, and of the pack's own exposure. */
 const LEEWAY = 4;
 
@@ -27,8 +31,22 @@ export function bindSettings(view: LightwellView, three: Three): void {
   bindLightGroups(view);
   bindCameras(view);
   bindSharing(view);
-  const wireframe = document.querySelector<HTMLInputElement>('#wireframe')!;
-  wireframe.addEventListener('change', () => view.toggleAttribute('wireframe', wireframe.checked));
+  for (const attribute of ['wireframe', 'measure', 'raking-light']) bindSwitch(view, attribute);
+}
+
+/** A box that is ticked while the element has the attribute of its name. */
+function bindSwitch(view: LightwellView, attribute: string): void {
+  const box = document.getElementById(attribute) as HTMLInputElement;
+  box.addEventListener('change', () => view.toggleAttribute(attribute, box.checked));
+  const show = () => {
+    box.checked = view.hasAttribute(attribute);
+    say((box.checked && HOW_TO[attribute]) || '');
+  };
+  new MutationObserver(show).observe(view, { attributeFilter: [attribute] });
+}
+
+function say(words: string): void {
+  document.querySelector<HTMLOutputElement>('#done')!.value = words;
 }
 
 function bindStrategy(view: LightwellView): void {
@@ -70,7 +88,7 @@ function bindWalk(view: LightwellView): void {
   const walk = document.querySelector<HTMLInputElement>('#walk')!;
   walk.addEventListener('change', () => {
     view.setAttribute('camera-controls', walk.checked ? 'walk' : 'always');
-    document.querySelector<HTMLOutputElement>('#done')!.value = walk.checked ? HOW_TO_WALK : '';
+    say((walk.checked && HOW_TO['walk']) || '');
     view.shadowRoot!.querySelector('canvas')?.focus();
   });
 }

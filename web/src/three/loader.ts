@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Loader, type LoadingManager, type WebGLRenderer } from 'three';
+import { Loader, type LoadingManager, REVISION, type WebGLRenderer } from 'three';
 import { type ConnectionOptions, PackConnection, reporting } from '../core/connection.js';
 import type { ConnectionEvent, LightEvent, MeshEvent, PackEvent } from '../core/protocol.js';
 import { assetOf } from './extensions.js';
@@ -8,9 +8,14 @@ import { messageOf, PackError, reasonOf } from './pack_error.js';
 import { LightwellScene, type SceneOptions } from './scene.js';
 
 export interface LoaderOptions extends ConnectionOptions, SceneOptions {
+  /** Try another three.js than the one that package.json asks for: what it draws may be wrong. */
+  anyThree?: boolean;
   /** Called with the connection's state until the scene is there, which has an event for it. */
   onConnection?: (state: ConnectionEvent['state']) => void;
 }
+
+/** Shaders are replaced (shader_chunks.ts), and those of another revision are others. */
+const KNOWN_REVISION = '187';
 
 /**
  * Loads a pack. What it gives can be shown as soon as the pack's first kilobytes are here and refines itself from then on:
@@ -75,6 +80,8 @@ export class LightwellLoader extends Loader<LightwellScene> {
     const renderer = this.#renderer;
     if (renderer === null || !('isWebGLRenderer' in renderer))
       throw new Error('LightwellLoader: call setRenderer before loading, with a WebGLRenderer (no WebGPURenderer)');
+    if (REVISION !== KNOWN_REVISION && this.#options.anyThree !== true)
+      throw new Error(`three.js ${REVISION} is not ${KNOWN_REVISION}: pictures may be wrong; anyThree shows them`);
     const connection = new PackConnection(url, this.#options);
     let scene: LightwellScene | null = null;
     try {
