@@ -38,7 +38,7 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
       cache_(scene.cache),
       contained_(options.contained),
       reflected_(options.reflected),
-      most_noise_(usual_noise / std::sqrt(std::sqrt(options.effort))),
+      effort_(options.effort),
       box_(scene.box),
       seed_(options.seed),
       journal_(options.journal) {
@@ -50,7 +50,7 @@ GatheredLight::GatheredLight(const BakeScene& scene, const EstimatorOptions& opt
   if (journal_ == nullptr) return;
   // The light of the surfaces tells apart scenes, lamps, materials and seeds.
   inputs_ = cache_.fingerprint(seed_) * 31 + static_cast<uint64_t>(reflected_);
-  inputs_ = inputs_ * 31 + std::bit_cast<uint32_t>(most_noise_);
+  inputs_ = inputs_ * 31 + std::bit_cast<uint32_t>(effort_);
   for (size_t i = 0; i < world_.lights().luminaires().size(); i++)
     inputs_ = inputs_ * 31 + contained_.contains(static_cast<int>(i));
 }
@@ -104,7 +104,8 @@ NodeSurroundings GatheredLight::without_much_noise(const Vec3f& position, int mo
   int sets = 1;
   const bool matters = sum.insides < seldom_insides && size_of(sum.moments) > dark_;
   float noise = sum.noise;
-  for (; matters && sets < most_sets && noise > most_noise_; sets++) {
+  const float most_noise = usual_noise / std::sqrt(std::sqrt(effort_));
+  for (; matters && sets < most_sets && noise > most_noise; sets++) {
     const NodeSurroundings more = around(position, random);
     sum.moments += more.moments;
     sum.insides += more.insides;
@@ -130,7 +131,8 @@ NodeSurroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, in
 
 NodeSurroundings GatheredLight::gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const {
   const Vec3f position = viewpoint(box_, node, cell);
-  NodeSurroundings found = without_much_noise(position, most_sets, random);
+  const int affordable = std::max(1, static_cast<int>(static_cast<float>(most_sets) * effort_));
+  NodeSurroundings found = without_much_noise(position, affordable, random);
   for (int axis = 0; axis < 3; axis++) {
     // What lies behind the outermost surfaces is seen by none unless a sky lights it.
     if (position[axis] != node[axis] && world_.lights().environment().black()) continue;

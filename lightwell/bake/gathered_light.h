@@ -24,8 +24,9 @@ class GatheredLight {
   /// whichever thread it is asked for.
   NodeSurroundings at_node(const Vec3f& node, const Vec3f& cell, int most_sets = 16) const;
 
-  /// A set of rays from a node. As many again are taken up to `most_sets` times where they leave much noise, which
-  /// shows as blotches on flat walls: in a room they leave 1.4 % (docs/light.md section 3: evenly spread, 64 leave 4
+  /// A set of rays from a node. As many again are taken up to `most_sets` times, less with less effort, where they
+  /// leave much noise, which shows as blotches on flat walls: in a room they leave 1.4 % (docs/light.md section 3:
+  /// evenly spread, 64 leave 4
   /// %).
   static constexpr int rays_a_node = 256;
   NodeSurroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
@@ -51,7 +52,7 @@ class GatheredLight {
   const SurfaceCache& cache_;
   const LuminaireSet contained_;
   const bool reflected_;
-  const float most_noise_;
+  const float effort_;
   const Box3f box_;
   const uint64_t seed_;
   NodeJournal* const journal_;

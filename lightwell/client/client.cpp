@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "lightwell/asset/codecs.h"
+#include "lightwell/asset/light_asset.h"
 #include "lightwell/client/download.h"
 #include "lightwell/client/requests.h"
+#include "lightwell/light/lattice_links.h"
 #include "lightwell/pack/self_contained.h"
 
 namespace lightwell {
@@ -69,6 +71,13 @@ class Client::Machine {
     if (!(weight >= 0 && std::isfinite(weight))) return;
     for (uint32_t stream = 0; stream < weights_.size(); stream++)
       if (asset_of_stream(stream) == asset) weights_[stream] = weight;
+  }
+
+  std::vector<Vec3f> blocked_links(uint32_t asset) const {
+    for (uint32_t stream = 0; stream < decoders_.size(); stream++)
+      if (asset_of_stream(stream) == asset && download_.directory().streams[stream].kind == StreamKind::light)
+        return lightwell::blocked_links(static_cast<const LightAsset&>(*decoders_[stream]).filled(Fill::none));
+    return {};
   }
 
   ClientProgress progress() const {
@@ -219,6 +228,8 @@ std::optional<Update> Client::take(size_t budget) { return machine_->take(budget
 double Client::wake() const { return machine_->requests().wake(); }
 
 void Client::set_weight(uint32_t asset, float weight) { machine_->set_weight(asset, weight); }
+
+std::vector<Vec3f> Client::blocked_links(uint32_t asset) const { return machine_->blocked_links(asset); }
 void Client::set_strategy(Strategy strategy) { machine_->requests().set_strategy(strategy); }
 
 ClientProgress Client::progress() const { return machine_->progress(); }

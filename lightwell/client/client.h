@@ -70,6 +70,9 @@ class Client {
   /// stream's first error that it removes, times the weight of the asset; 0 puts the asset last. Ignored before the
   /// opening has arrived and for negative, infinite or NaN weights.
   void set_weight(uint32_t asset, float weight);
+  /// Both ends of each link between neighbours of a light grid that a wall blocks, as far as it has come, in the grid's
+  /// space; for who shows how the grid sees the scene. Nothing of other assets.
+  std::vector<Vec3f> blocked_links(uint32_t asset) const;
   /// Changes the strategy from the next request on.
   void set_strategy(Strategy strategy);
 

@@ -132,6 +132,12 @@ void LW_EXPORT(lw_set_weight)(uint32_t client, uint32_t asset, float weight) {
   client_of(client).set_weight(asset, weight);
 }
 
+void LW_EXPORT(lw_blocked_links)(uint32_t client, uint32_t asset) {
+  static std::vector<Vec3f> ends;
+  ends = client_of(client).blocked_links(asset);
+  answer(0, address(ends.data()), 3 * ends.size());
+}
+
 void LW_EXPORT(lw_progress)(uint32_t client) {
   const ClientProgress p = client_of(client).progress();
   answer(0, p.bytes, p.bytes_total, p.geometry_bytes, p.geometry_bytes_total, p.light_bytes, p.light_bytes_total,

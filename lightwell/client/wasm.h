@@ -71,6 +71,10 @@ void lw_set_weight(uint32_t client, uint32_t asset, float weight);
 /// Changes the strategy, numbered as for lw_create, from the next request on.
 void lw_set_strategy(uint32_t client, uint32_t strategy);
 
+/// The blocked links of a light grid, for a view of it: [0] pointer, [1] number of floats: x, y, z of both ends of
+/// each.
+void lw_blocked_links(uint32_t client, uint32_t asset);
+
 // clang-format off
 /// Writes the progress to the record. Byte counts are below 4 GiB:
 ///   [0] bytes, [1] of, [2] geometry bytes, [3] of, [4] light bytes, [5] of, [6] faces, [7] of, [8] nodes, [9] of,

@@ -104,7 +104,7 @@ class BundleEncoder {
       expected.fill(numbers);  // what was shown before
       whole_ += size * squared_difference(moments, {});
       mended_ += size * squared_difference(moments, field_.record().decode(numbers));
-      field_.record().encode(moments, numbers);
+      encode_numbers(field_.record(), moments, numbers);
     }
     numbers.back() = valid;
     coder_.code(writer, field_.record(), numbers, expected);
@@ -142,7 +142,7 @@ LatticeNumbers corners_of(const LightGrid& grid, const LatticeRecord& record) {
   const std::array<size_t, 8> nodes = corner_nodes(grid.shape);
   LatticeNumbers corners(nodes.size(), record.numbers().size()), before(1, record.numbers().size());
   for (size_t i = 0; i < nodes.size(); i++) {
-    if (grid.valid[nodes[i]]) record.encode(grid.moments[nodes[i]], before[0]);
+    if (grid.valid[nodes[i]]) encode_numbers(record, grid.moments[nodes[i]], before[0]);
     std::ranges::copy(before[0], corners[i].begin());
     corners[i].back() = grid.valid[nodes[i]];
   }

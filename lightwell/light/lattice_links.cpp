@@ -2,6 +2,8 @@
 #include "lightwell/light/lattice_links.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "lightwell/base/model_coder.h"
 
@@ -63,6 +65,30 @@ bool blocked_between(const std::vector<uint8_t>& links, const Vec3i& nodes, size
   for (size_t node = std::min(a, b); node < std::max(a, b); node += step)
     if ((links[node] >> axis & 1) != 0) return true;
   return false;
+}
+
+std::vector<Vec3f> blocked_links(const LightGrid& grid) {
+  std::vector<Vec3f> ends;
+  const auto add = [&](uint8_t links, int level, const Vec3i& corner) {
+    const float scale = std::ldexp(1.0f, -level);
+    for (int axis = 0; links != 0 && axis < 3; axis++) {
+      if ((links >> axis & 1) == 0) continue;
+      const Vec3f from = corner.cast<float>() * scale;
+      Vec3f to = from;
+      to[axis] += scale;
+      const auto finest = grid.tree.empty() ? std::nullopt : grid.tree.finest((from + to) * 0.5f);
+      if ((finest ? grid.tree.bricks()[*finest].level : 0) != level) continue;
+      ends.push_back(grid.shape.lo + grid.shape.cell * from);
+      ends.push_back(grid.shape.lo + grid.shape.cell * to);
+    }
+  };
+  for (size_t i = 0; i < grid.links.nodes.size(); i++) add(grid.links.nodes[i], 0, grid.shape.node(i));
+  for (size_t i = 0; i < grid.links.bricks.size(); i++) {
+    const Brick& brick = grid.tree.bricks()[i];
+    for (int point = 0; point < Brick::points; point++)
+      add(grid.links.bricks[i][static_cast<size_t>(point)], brick.level, brick.corner(point));
+  }
+  return ends;
 }
 
 }  // namespace lightwell

@@ -18,4 +18,8 @@ std::vector<uint8_t> read_links(const Vec3i& nodes, Bytes bytes);
 /// Whether a link between two nodes on a line of the grid along an axis is blocked.
 bool blocked_between(const std::vector<uint8_t>& links, const Vec3i& nodes, size_t a, size_t b, int axis);
 
+/// Both ends of each blocked link, one after the other, in the grid's space: of the grid's own nodes and of bricks,
+/// each where no finer cells lie.
+std::vector<Vec3f> blocked_links(const LightGrid& grid);
+
 }  // namespace lightwell

@@ -45,19 +45,26 @@ class LatticeRecord {
   static constexpr size_t most_numbers = 42, most_models = 7;
 
   virtual ~LatticeRecord() = default;
+  LightRecord kind() const { return kind_; }
+  /// By which E is taken.
+  float scale() const { return scale_; }
   /// The numbers in the order in which they are coded.
   std::span<const RecordNumber> numbers() const { return numbers_; }
-  /// The nearest numbers to the light of a node.
-  virtual void encode(const Moments& moments, std::span<int32_t> numbers) const = 0;
   /// Finite for any numbers, and the same on every machine.
   virtual Moments decode(std::span<const int32_t> numbers) const = 0;
 
  protected:
+  LatticeRecord(LightRecord kind, float scale) : kind_(kind), scale_(scale) {}
   /// Adds the three of a colour, green first.
   void add_colour(RecordNumber number, RecordNumber::Colour follows);
 
+  const LightRecord kind_;
+  const float scale_;
   std::vector<RecordNumber> numbers_;
 };
+
+/// The nearest numbers of a record to the light of a node. Bakers alone need it.
+void encode_numbers(const LatticeRecord& record, const Moments& moments, std::span<int32_t> numbers);
 
 /// `steps` to an octave of E is of LightRecord::moments only, a power of two from least_steps to most_steps. E is
 /// taken `scale` times: see light_scale.
@@ -74,6 +81,12 @@ std::unique_ptr<const LatticeRecord> direction_magnitude_record(float scale);
 
 /// The colours in the order in which they are coded: green, red, blue.
 inline constexpr std::array<int, 3> coded_colours{1, 0, 2};
+/// Of LightRecord::moments: added to the scaled E, below it nothing is told apart, a 16,000th of the largest.
+inline constexpr float moments_darkness = 0x1p-4f;
+/// Of LightRecord::floats, of a scaled unit: what is smaller is 0, a 2^-30th of the largest E.
+inline constexpr float smallest_float = 0x1p-20f, largest_float = 0x1p12f;
+/// Of the records of directions: the largest component, and the largest half.
+inline constexpr int32_t direction_end = 127, largest_half = 0x7bff;
 
 /// The numbers of many nodes: of each those of its record, then 1 or 0, whether it is valid.
 class LatticeNumbers {

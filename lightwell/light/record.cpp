@@ -26,11 +26,6 @@ int mantissa(float value, int exponent) {
 // The axes a < b of the three pairs xy, xz, yz.
 constexpr std::array<std::array<size_t, 2>, 3> axis_pairs{{{0, 1}, {0, 2}, {1, 2}}};
 
-// (M_a + M_b) / 2: the bound of |S_ab|.
-Vec3f mixed_bound(const std::array<Vec3f, 9>& m, const std::array<size_t, 2>& axes) {
-  return (m[2 * axes[0]] + m[2 * axes[0] + 1] + m[2 * axes[1]] + m[2 * axes[1] + 1]) * 0.5f;
-}
-
 int8_t encode_share(float value, float bound) {
   const float share = bound > 0 ? value / bound : 0.0f;
   if (!(std::abs(share) <= 1)) return share > 1 ? 127 : share < -1 ? -127 : 0;
@@ -38,6 +33,11 @@ int8_t encode_share(float value, float bound) {
 }
 
 }  // namespace
+
+Vec3f mixed_bound(const Moments& moments, size_t pair) {
+  const auto [a, b] = axis_pairs[pair];
+  return (moments.m[2 * a] + moments.m[2 * a + 1] + moments.m[2 * b] + moments.m[2 * b + 1]) * 0.5f;
+}
 
 uint32_t encode_rgb9e5(const Vec3f& rgb) {
   const Vec3f value{{representable(rgb[0]), representable(rgb[1]), representable(rgb[2])}};
@@ -72,13 +72,13 @@ MomentsRecord MomentsRecord::read(ByteReader& reader) {
 
 MomentsRecord encode_record(const Moments& moments, bool valid) {
   MomentsRecord record;
-  std::array<Vec3f, 9> decoded{};
+  Moments decoded;
   for (size_t d = 0; d < 6; d++) {
     record.irradiance[d] = encode_rgb9e5(moments.m[d]);
-    decoded[d] = decode_rgb9e5(record.irradiance[d]);
+    decoded.m[d] = decode_rgb9e5(record.irradiance[d]);
   }
   for (size_t pair = 0; pair < 3; pair++) {
-    const Vec3f bound = mixed_bound(decoded, axis_pairs[pair]);
+    const Vec3f bound = mixed_bound(decoded, pair);
     for (int c = 0; c < 3; c++) {
       record.mixed[3 * pair + static_cast<size_t>(c)] = encode_share(moments.m[6 + pair][c], bound[c]);
     }
@@ -91,7 +91,7 @@ Moments decode_record(const MomentsRecord& record) {
   Moments moments;
   for (size_t d = 0; d < 6; d++) moments.m[d] = decode_rgb9e5(record.irradiance[d]);
   for (size_t pair = 0; pair < 3; pair++) {
-    const Vec3f bound = mixed_bound(moments.m, axis_pairs[pair]);
+    const Vec3f bound = mixed_bound(moments, pair);
     for (int c = 0; c < 3; c++) {
       const size_t entry = 3 * pair + static_cast<size_t>(c);
       const bool marked = entry == 0 && !record.valid();

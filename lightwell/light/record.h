@@ -15,6 +15,9 @@ namespace lightwell {
 uint32_t encode_rgb9e5(const Vec3f& rgb);
 Vec3f decode_rgb9e5(uint32_t bits);
 
+/// (M_a + M_b) / 2, which |S_ab| never exceeds, of a pair of axes: xy, xz, yz.
+Vec3f mixed_bound(const Moments& moments, size_t pair);
+
 /// The record of one node, 33 bytes: six RGB9E5 for E (+x, -x, +y, -y, +z, -z) and nine signed bytes for S (red, green,
 /// blue of xy, then xz, yz) in units of 1/127 of (M_a + M_b)/2, which S never exceeds. An invalid node has -128 in its
 /// first signed byte, so the red S_xy of its fill is lost and reads as 0.

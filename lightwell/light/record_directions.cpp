@@ -14,8 +14,6 @@
 namespace lightwell {
 namespace {
 
-constexpr int32_t direction_end = 127;
-
 /// Numbers of a direction, and their models.
 constexpr size_t direction_numbers = 3;
 constexpr uint8_t direction_models = 3, exponent_models = 6;
@@ -26,15 +24,6 @@ Vec3f axis_direction(size_t d) {
   return direction;
 }
 
-/// The direction of its three colours together, as numbers.
-void encode_direction(const std::array<Vec3f, 3>& colours, std::span<int32_t> numbers) {
-  const Vec3f sum = colours[0] + colours[1] + colours[2];
-  const float length = std::sqrt(dot(sum, sum));
-  for (int a = 0; a < 3; a++)
-    numbers[static_cast<size_t>(a)] =
-        length > 0 ? static_cast<int32_t>(std::lround(sum[a] / length * direction_end)) : 0;
-}
-
 Vec3f decode_direction(std::span<const int32_t> numbers) {
   const Vec3f sum{{static_cast<float>(numbers[0]), static_cast<float>(numbers[1]), static_cast<float>(numbers[2])}};
   const float square = dot(sum, sum);
@@ -43,7 +32,7 @@ Vec3f decode_direction(std::span<const int32_t> numbers) {
 
 class DirectionRecord : public LatticeRecord {
  protected:
-  explicit DirectionRecord(float scale) : scale_(scale) {}
+  using LatticeRecord::LatticeRecord;
 
   void add_direction() {
     for (size_t a = 0; a < direction_numbers; a++)
@@ -52,13 +41,11 @@ class DirectionRecord : public LatticeRecord {
                           .models = static_cast<uint8_t>(direction_models + a),
                           .begins = a == 0});
   }
-
-  float scale_;
 };
 
 class DirectionColourRecord final : public DirectionRecord {
  public:
-  explicit DirectionColourRecord(float scale) : DirectionRecord(scale) {
+  explicit DirectionColourRecord(float scale) : DirectionRecord(LightRecord::direction_colour, scale) {
     for (size_t d = 0; d < 6; d++) {
       add_direction();
       const auto exponent = static_cast<uint8_t>(numbers_.size());
@@ -70,17 +57,6 @@ class DirectionColourRecord final : public DirectionRecord {
       add_colour(
           {.least = 0, .most = 511, .models = 0, .expected = RecordNumber::Expected::scaled, .exponent = exponent},
           RecordNumber::Colour::follows_in_proportion);
-    }
-  }
-
-  void encode(const Moments& moments, std::span<int32_t> numbers) const override {
-    const IrradianceVectors vectors = vectors_of(moments);
-    for (size_t d = 0, i = 0; d < 6; d++) {
-      encode_direction(vectors.v[d], numbers.subspan(i, direction_numbers));
-      i += direction_numbers;
-      const uint32_t bits = encode_rgb9e5(moments.m[d] * scale_);
-      numbers[i++] = static_cast<int32_t>(bits >> 27);
-      for (const int c : coded_colours) numbers[i++] = static_cast<int32_t>(bits >> (9 * c) & 511);
     }
   }
 
@@ -103,22 +79,10 @@ class DirectionColourRecord final : public DirectionRecord {
 
 class DirectionMagnitudeRecord final : public DirectionRecord {
  public:
-  explicit DirectionMagnitudeRecord(float scale) : DirectionRecord(scale) {
+  explicit DirectionMagnitudeRecord(float scale) : DirectionRecord(LightRecord::direction_magnitude, scale) {
     for (size_t d = 0; d < 6; d++) {
       add_direction();
       add_colour({.least = 0, .most = largest_half, .models = 0, .begins = true}, RecordNumber::Colour::follows);
-    }
-  }
-
-  void encode(const Moments& moments, std::span<int32_t> numbers) const override {
-    const IrradianceVectors vectors = vectors_of(moments);
-    for (size_t d = 0, i = 0; d < 6; d++) {
-      encode_direction(vectors.v[d], numbers.subspan(i, direction_numbers));
-      i += direction_numbers;
-      for (const int c : coded_colours) {
-        const Vec3f& vector = vectors.v[d][static_cast<size_t>(c)];
-        numbers[i++] = std::min<int32_t>(to_half(std::sqrt(dot(vector, vector)) * scale_), largest_half);
-      }
     }
   }
 
@@ -132,9 +96,6 @@ class DirectionMagnitudeRecord final : public DirectionRecord {
     }
     return moments_of(vectors);
   }
-
- private:
-  static constexpr int32_t largest_half = 0x7bff;
 };
 
 }  // namespace

@@ -11,16 +11,8 @@
 namespace lightwell {
 namespace {
 
-constexpr float smallest = 0x1p-20f, largest = 0x1p12f;
-constexpr int32_t below = std::bit_cast<int32_t>(smallest) - 1;
-constexpr int32_t end = std::bit_cast<int32_t>(largest) - below;
-
-int32_t number_of(float value) {
-  const float size = std::min(std::abs(value), largest);
-  if (!(size >= smallest)) return 0;
-  const int32_t number = std::bit_cast<int32_t>(size) - below;
-  return value < 0 ? -number : number;
-}
+constexpr int32_t below = std::bit_cast<int32_t>(smallest_float) - 1;
+constexpr int32_t end = std::bit_cast<int32_t>(largest_float) - below;
 
 float value_of(int32_t number) {
   if (number == 0) return 0;
@@ -30,7 +22,7 @@ float value_of(int32_t number) {
 
 class FloatsRecord final : public LatticeRecord {
  public:
-  explicit FloatsRecord(float scale) : scale_(scale) {
+  explicit FloatsRecord(float scale) : LatticeRecord(LightRecord::floats, scale) {
     for (size_t i = 0; i < 9; i++) {
       const bool mixed = i >= 6;
       add_colour({.least = mixed ? -end : 0,
@@ -41,19 +33,11 @@ class FloatsRecord final : public LatticeRecord {
     }
   }
 
-  void encode(const Moments& moments, std::span<int32_t> numbers) const override {
-    for (size_t i = 0; i < 27; i++)
-      numbers[i] = std::max(number_of(moments.m[i / 3][coded_colours[i % 3]] * scale_), numbers_[i].least);
-  }
-
   Moments decode(std::span<const int32_t> numbers) const override {
     Moments moments;
     for (size_t i = 0; i < 27; i++) moments.m[i / 3][coded_colours[i % 3]] = value_of(numbers[i]) / scale_;
     return moments;
   }
-
- private:
-  float scale_;
 };
 
 }  // namespace

@@ -9,24 +9,17 @@
 #include "lightwell/base/assert.h"
 #include "lightwell/base/power_of_two.h"
 #include "lightwell/light/lattice_record.h"
+#include "lightwell/light/record.h"
 
 namespace lightwell {
 namespace {
 
 /// Scaled E lies in [0, 2^10]; 2^-4 is added to it.
 constexpr int lowest_octave = -4, octave_end = 11;
-constexpr float darkness = 0x1p-4f;
-
-constexpr std::array<std::array<size_t, 2>, 3> axis_pairs{{{0, 1}, {0, 2}, {1, 2}}};
-
-Vec3f mixed_bound(const std::array<Vec3f, 9>& m, size_t pair) {
-  const auto [a, b] = axis_pairs[pair];
-  return (m[2 * a] + m[2 * a + 1] + m[2 * b] + m[2 * b + 1]) * 0.5f;
-}
 
 class MomentsRecordInSteps final : public LatticeRecord {
  public:
-  MomentsRecordInSteps(int steps, float scale) : steps_(steps), scale_(scale) {
+  MomentsRecordInSteps(int steps, float scale) : LatticeRecord(LightRecord::moments, scale), steps_(steps) {
     LW_ASSERT(steps >= least_steps && steps <= most_steps && (steps & (steps - 1)) == 0);
     for (size_t i = 0; i < 9; i++) {
       const bool mixed = i >= 6;
@@ -47,25 +40,6 @@ class MomentsRecordInSteps final : public LatticeRecord {
     for (size_t i = 0; i < static_cast<size_t>(steps); i++) fraction_[i] = static_cast<float>(powers[i]);
   }
 
-  void encode(const Moments& moments, std::span<int32_t> numbers) const override {
-    std::array<Vec3f, 9> decoded{};
-    for (size_t i = 0; i < 27; i++) {
-      const size_t entry = i / 3;
-      const int c = coded_colours[i % 3];
-      float wanted;
-      if (entry < 6) {
-        const float e = std::max(moments.m[entry][c] * scale_, 0.0f);
-        wanted = std::log2(e + darkness);
-      } else {
-        const float bound = mixed_bound(decoded, entry - 6)[c];
-        wanted = bound > 0 ? std::clamp(moments.m[entry][c] / bound, -1.0f, 1.0f) : 0.0f;
-      }
-      numbers[i] = std::clamp(static_cast<int32_t>(std::lround(static_cast<float>(steps_) * wanted)), numbers_[i].least,
-                              numbers_[i].most);
-      if (entry < 6) decoded[entry][c] = irradiance(numbers[i]);
-    }
-  }
-
   Moments decode(std::span<const int32_t> numbers) const override {
     Moments moments;
     for (size_t i = 0; i < 27; i++) {
@@ -74,7 +48,7 @@ class MomentsRecordInSteps final : public LatticeRecord {
       if (entry < 6) {
         moments.m[entry][c] = irradiance(numbers[i]);
       } else {
-        const float bound = mixed_bound(moments.m, entry - 6)[c] / static_cast<float>(steps_);
+        const float bound = mixed_bound(moments, entry - 6)[c] / static_cast<float>(steps_);
         moments.m[entry][c] = static_cast<float>(numbers[i]) * bound;
       }
     }
@@ -85,11 +59,10 @@ class MomentsRecordInSteps final : public LatticeRecord {
   float irradiance(int32_t number) const {
     const int32_t octave = (number >= 0 ? number : number - steps_ + 1) / steps_;
     const float power = power_of_two(octave) * fraction_[static_cast<size_t>(number - octave * steps_)];
-    return std::max(power - darkness, 0.0f) / scale_;
+    return std::max(power - moments_darkness, 0.0f) / scale_;
   }
 
   int32_t steps_;
-  float scale_;
   std::array<float, most_steps> fraction_{};  // 2^(i / steps)
 };
 

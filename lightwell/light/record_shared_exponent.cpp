@@ -10,31 +10,17 @@ namespace {
 
 class SharedExponentRecord final : public LatticeRecord {
  public:
-  explicit SharedExponentRecord(float scale) : scale_(scale) {
+  explicit SharedExponentRecord(float scale) : LatticeRecord(LightRecord::shared_exponent, scale) {
     for (size_t d = 0; d < 6; d++) {
       const auto exponent = static_cast<uint8_t>(numbers_.size());
       numbers_.push_back(
           {.least = 0, .most = 31, .models = 6, .begins = d == 0, .expected = RecordNumber::Expected::largest});
-      add_colour({.least = 0,
-                  .most = 511,
-                  .models = 0,
-                  .expected = RecordNumber::Expected::scaled,
-                  .exponent = exponent},
-                 RecordNumber::Colour::follows_in_proportion);
+      add_colour(
+          {.least = 0, .most = 511, .models = 0, .expected = RecordNumber::Expected::scaled, .exponent = exponent},
+          RecordNumber::Colour::follows_in_proportion);
     }
     for (size_t pair = 0; pair < 3; pair++)
       add_colour({.least = -127, .most = 127, .models = 3, .begins = pair == 0}, RecordNumber::Colour::follows);
-  }
-
-  void encode(const Moments& moments, std::span<int32_t> numbers) const override {
-    const MomentsRecord record = encode_record(moments * scale_, true);
-    size_t i = 0;
-    for (const uint32_t bits : record.irradiance) {
-      numbers[i++] = static_cast<int32_t>(bits >> 27);
-      for (const int c : coded_colours) numbers[i++] = static_cast<int32_t>(bits >> (9 * c) & 511);
-    }
-    for (size_t pair = 0; pair < 3; pair++)
-      for (const int c : coded_colours) numbers[i++] = record.mixed[3 * pair + static_cast<size_t>(c)];
   }
 
   Moments decode(std::span<const int32_t> numbers) const override {
@@ -49,9 +35,6 @@ class SharedExponentRecord final : public LatticeRecord {
         record.mixed[3 * pair + static_cast<size_t>(c)] = static_cast<int8_t>(numbers[i++]);
     return decode_record(record) * (1 / scale_);
   }
-
- private:
-  float scale_;
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ struct PackGrid {
   int priority = 0;           ///< where grids of the same contents overlap, the highest priority is looked up
   LightNodeOrder order = LightNodeOrder::lattice;
   LightRecord record = LightRecord::moments;  ///< of the lattice order
-  uint64_t seed = 1;  ///< of the order of slices
+  uint64_t seed = 1;                          ///< of the order of slices
 };
 
 /// The light of a scene to be packed.

@@ -33,10 +33,23 @@ function packWithCameras() {
   return bake(file, `${folder}/room.lw.glb`);
 }
 
+/** A room that a wall of 8 cm divides, which stands between nodes, with a lamp on each side. */
+function packWithAWall() {
+  const material = { pbrMetallicRoughness: { metallicFactor: 0 } };
+  const wall = room(1);
+  wall.positions = wall.positions.map((x, i) => (i % 3 === 0 ? 0.04 * x - 0.571 : x));
+  wall.normals = wall.normals.map((x) => -x);
+  wall.indices.reverse();
+  const lamp = { type: 'point', intensity: 5 };
+  const lamps = [{ lamp, at: [0.3, 0.8, 0] }, { lamp, at: [-0.8, 0.8, 0] }];
+  const file = writeScene(`${folder}/wall.gltf`, [{ mesh: room(1), material }, { mesh: wall, material }], lamps);
+  return bake(file, `${folder}/wall.lw.glb`);
+}
+
 const PACK = packWithCameras();
 
-async function openViewer(t, size) {
-  const server = await forTest(t, startStaticServer({ ...viewerPage('/room.lw.glb'), '/room.lw.glb': PACK }));
+async function openViewer(t, size, pack = PACK) {
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/room.lw.glb'), '/room.lw.glb': pack }));
   const opened = await forTest(t, openPage(browser, size));
   const scripts = [];
   opened.page.on('request', (request) => request.resourceType() === 'script' && scripts.push(new URL(request.url()).pathname));
@@ -158,6 +171,27 @@ test('the cells and nodes of the light can be seen, and are gone again', async (
   await page.getByLabel('Cells of light').uncheck();
   await page.getByLabel('Nodes of light').uncheck();
   assert.deepEqual(await shown(), []);
+  assert.deepEqual(errors, []);
+});
+
+test('links that walls block are red lines through the wall', async (t) => {
+  const { page, errors } = await openViewer(t, WIDE, packWithAWall());
+  await complete(page);
+  await openSettings(page);
+  await page.getByLabel('Links that walls block').check();
+  const lines = await page.waitForFunction(() => {
+    const { pack } = document.querySelector('lightwell-view');
+    const mesh = pack.children.find(({ isMesh }) => isMesh);
+    return mesh && [...mesh.geometry.attributes.position.array];
+  });
+  const ends = await lines.jsonValue();
+  assert.ok(ends.length > 0 && ends.length % 6 === 0);
+  for (let i = 0; i < ends.length; i += 6) {
+    const [x0, y0, z0, x1, y1, z1] = ends.slice(i, i + 6);
+    assert.ok(x0 < -0.571 && x1 > -0.571 && y0 === y1 && z0 === z1, `${ends.slice(i, i + 6)} crosses the wall`);
+  }
+  await page.getByLabel('Links that walls block').uncheck();
+  await page.waitForFunction(() => document.querySelector('lightwell-view').pack.children.every(({ isMesh }) => !isMesh));
   assert.deepEqual(errors, []);
 });
 

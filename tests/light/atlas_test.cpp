@@ -117,8 +117,8 @@ TEST(LightAtlas, WeightsAreNormalHalves) {
 }
 
 // tests/data/light/lookup.json is what the page's shader is tested against in a browser: a regular grid and one with
-// bricks, each an atlas, placements as uniforms, world points and normals, and the irradiance that they must give, trilinear and tricubic.
-// LIGHTWELL_UPDATE_TEST_DATA=1 writes it anew.
+// bricks, each an atlas, placements as uniforms, world points and normals, and the irradiance that they must give,
+// trilinear and tricubic. LIGHTWELL_UPDATE_TEST_DATA=1 writes it anew.
 std::string lookup_fixture(const LightGrid& grid) {
   const GridShape& shape = grid.shape;
   LightGrid spline = grid;

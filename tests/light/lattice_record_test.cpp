@@ -24,7 +24,7 @@ Moments random_light(Random& random) {
 
 Moments through(const LatticeRecord& record, const Moments& moments) {
   std::vector<int32_t> numbers(record.numbers().size());
-  record.encode(moments, numbers);
+  encode_numbers(record, moments, numbers);
   return record.decode(numbers);
 }
 

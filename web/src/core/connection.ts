@@ -51,6 +51,11 @@ export class PackConnection {
     this.#send({ type: 'weights', weights });
   }
 
+  /** Asks for a `links` event of a light grid. */
+  askForLinks(asset: number): void {
+    this.#send({ type: 'links', asset });
+  }
+
   /** Says that so many bytes of updates have reached the GPU, so that as many more come. */
   consumed(bytes: number): void {
     this.#send({ type: 'consumed', bytes });

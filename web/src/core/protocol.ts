@@ -14,6 +14,8 @@ export type Command =
   | { type: 'weights'; weights: [asset: number, weight: number][] }
   | { type: 'pause' }
   | { type: 'resume' }
+  /** To be answered by the links of a light grid as far as it has come. */
+  | { type: 'links'; asset: number }
   /** So many bytes of updates have reached the GPU: the worker may send as many more. */
   | { type: 'consumed'; bytes: number };
 
@@ -117,6 +119,13 @@ export interface ConnectionEvent {
   state: 'streaming' | 'waiting' | 'complete';
 }
 
+/** The links between neighbours of a light grid that walls block: x, y, z of both ends of each, in the grid's space. */
+export interface LinksEvent {
+  type: 'links';
+  asset: number;
+  ends: Float32Array<ArrayBuffer>;
+}
+
 /** Nothing more will come. What was handed over stays valid, unless the file was replaced by another. */
 export interface FailureEvent {
   type: 'failure';
@@ -125,7 +134,7 @@ export interface FailureEvent {
 }
 
 export type UpdateEvent = MeshEvent | RangeEvent | DrawEvent | LightEvent | TextureEvent;
-export type PackEvent = OpeningEvent | UpdateEvent | ProgressEvent | ConnectionEvent | FailureEvent;
+export type PackEvent = OpeningEvent | UpdateEvent | ProgressEvent | ConnectionEvent | LinksEvent | FailureEvent;
 
 /** The bytes of an update that flow control counts. */
 export function payload(event: PackEvent): ArrayBuffer | null {

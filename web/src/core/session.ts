@@ -89,6 +89,9 @@ export class PackSession {
       case 'weights':
         for (const [asset, weight] of command.weights) client.setWeight(asset, weight);
         break;
+      case 'links':
+        this.#emit([client.blockedLinks(command.asset)]);
+        break;
       case 'pause':
         this.#paused = true;
         break;

@@ -18,6 +18,7 @@ interface Exports {
   lw_take(client: number, budget: number): number;
   lw_set_strategy(client: number, strategy: number): void;
   lw_set_weight(client: number, asset: number, weight: number): void;
+  lw_blocked_links(client: number, asset: number): void;
   lw_progress(client: number): void;
 }
 
@@ -103,6 +104,12 @@ export class WasmClient {
 
   setWeight(asset: number, weight: number): void {
     this.#wasm.lw_set_weight(this.#handle, asset, weight);
+  }
+
+  blockedLinks(asset: number): PackEvent {
+    this.#wasm.lw_blocked_links(this.#handle, asset);
+    const [pointer = 0, floats = 0] = this.#record(2);
+    return { type: 'links', asset, ends: new Float32Array(this.#copy(pointer, 4 * floats)) };
   }
 
   counts(): Counts {

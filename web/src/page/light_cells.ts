@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shows how a grid divides space: the edges of its bricks, and its nodes as little stones lit by the grid itself. Nodes that lookups
-// leave out, since they stand in solids or on sheets, are red.
+// leave out, since they stand in solids or on sheets, are red, and so are links between neighbours that a wall blocks.
 import type { BufferAttribute, BufferGeometry, Mesh, MeshStandardMaterial } from 'three';
 import { halfValues } from '../three/half.js';
 import type { LightwellLight } from '../three/light.js';
@@ -38,6 +38,14 @@ export function brickEdges(pack: LightwellScene, three: Three): Mesh[] {
     for (const { level, first, last } of cells.bricks()) ofLevels[level]!.push([first, last].map((place) => cells.position(place)));
     return ofLevels.flatMap((boxes, level) => (boxes.length > 0 ? edgesOf(boxes, COLORS[level]!, three) : []));
   });
+}
+
+/** Blocked links, red lines between nodes; `ends` as LightwellScene.withBlockedLinks gives them. */
+export function linkLines(ends: Float32Array, three: Three): Mesh[] {
+  const lines: number[] = [];
+  for (let first = 0; first < ends.length / 3; first += 2) lines.push(first, first + 1, first + 1);
+  const up = Array.from(ends, (_, i) => Number(i % 3 === 1));
+  return ends.length > 0 ? [edges([...ends], up, lines, RED, three)] : [];
 }
 
 /** The nodes of each grid. Add to the pack. */
@@ -158,7 +166,11 @@ function edgesOf(boxes: Place[][], color: number, three: Three): Mesh {
     }
   }
   const up = positions.map((_, i) => Number(i % 3 === 1));
-  const mesh = meshOf(positions, up, indices, color, three);
+  return edges(positions, up, indices, color, three);
+}
+
+function edges(positions: number[], normals: number[], indices: number[], color: number, three: Three): Mesh {
+  const mesh = meshOf(positions, normals, indices, color, three);
   mesh.material.wireframe = true;
   return mesh;
 }

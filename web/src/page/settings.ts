@@ -4,7 +4,7 @@ import type { LightwellView } from '../element/lightwell_view.js';
 import type { LightwellScene } from '../three/scene.js';
 import html from './settings.html';
 import { bindCameras } from './cameras.js';
-import { brickEdges, gridNodes, type Three } from './light_cells.js';
+import { brickEdges, gridNodes, linkLines, type Three } from './light_cells.js';
 import { bindLightGroups } from './light_groups.js';
 import { bindSharing } from './sharing.js';
 
@@ -28,6 +28,7 @@ export function bindSettings(view: LightwellView, three: Three): void {
   bindWalk(view);
   bindCells(view, '#light-cells', (pack) => brickEdges(pack, three));
   bindCells(view, '#light-nodes', (pack) => gridNodes(pack, three));
+  bindCells(view, '#light-links', async (pack) => (await pack.blockedLinks()).flatMap((ends) => linkLines(ends, three)));
   bindLightGroups(view);
   bindCameras(view);
   bindSharing(view);
@@ -66,17 +67,22 @@ function bindLight(view: LightwellView): void {
 }
 
 /** A box that shows something of the pack's grids, as far as they have come. */
-function bindCells(view: LightwellView, id: string, meshesOf: (pack: LightwellScene) => Mesh[]): void {
+function bindCells(view: LightwellView, id: string, meshesOf: (pack: LightwellScene) => Mesh[] | Promise<Mesh[]>): void {
   const box = document.querySelector<HTMLInputElement>(id)!;
   let shown: Mesh[] = [];
-  const apply = () => {
+  let turn = 0;
+  const apply = async () => {
+    const own = ++turn;
+    const { pack } = view;
+    const meshes = box.checked && pack !== null ? await meshesOf(pack) : [];
+    if (own !== turn) return;
     for (const mesh of shown) {
       mesh.removeFromParent();
       mesh.geometry.dispose();
       (mesh.material as Material).dispose();
     }
-    shown = box.checked && view.pack !== null ? meshesOf(view.pack) : [];
-    if (shown.length > 0) view.pack!.add(...shown);
+    shown = meshes;
+    if (shown.length > 0) pack!.add(...shown);
     view.invalidate();
   };
   box.addEventListener('change', apply);

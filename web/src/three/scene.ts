@@ -89,6 +89,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #images: Map<number, TextureRefinement>;
   readonly #lights = new Map<number, LightRefinement>();
   readonly #groups: LightGroups | null;
+  #links: Float32Array[] = [];
+  #resolveLinks: (ends: Float32Array[]) => void = () => {};
   readonly #handOver: HandOver;
   readonly #uploads: FrameTask;
   #received = false;
@@ -193,6 +195,16 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#showGroups(this.#groups);
   }
 
+  /**
+   * The links between neighbours of the grids that walls block, as far as they have come: of each grid x, y, z of both ends of each, in the
+   * pack's space. They are sent to keep what lies behind a wall apart from what lies before it.
+   */
+  blockedLinks(): Promise<Float32Array[]> {
+    this.#links = [];
+    for (const { definition } of this.grids) this.#connection.askForLinks(assetOf(definition));
+    return new Promise((resolve) => (this.#resolveLinks = resolve));
+  }
+
   /** Asks for no more until `resume`. */
   pause(): void {
     this.#connection.pause();
@@ -243,6 +255,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     switch (event.type) {
       case 'opening':
         return;
+      case 'links':
+        this.#links.push(event.ends);
+        return this.#links.length === this.grids.length ? this.#resolveLinks(this.#links) : undefined;
       case 'progress':
         return void this.dispatchEvent({ type: 'progress', progress: event.progress });
       case 'connection':
