@@ -10,9 +10,11 @@ namespace lightwell {
 /// An instruction from a client to its transport.
 struct Action {
   enum class Kind : uint8_t {
-    ask,    ///< send a request for the bytes first ... last (HTTP: "Range: bytes=first-last" and no other header)
+    ask,    ///< send a request for the bytes first ... last (HTTP: "Range: bytes=first-last" and no other header), or
+            ///< for the whole file, without that header, when `last` is `to_the_end`
     cancel  ///< drop the request `id` and report nothing more about it
   };
+  static constexpr uint64_t to_the_end = UINT64_MAX;
   Kind kind = Kind::ask;
   uint32_t id = 0;
   uint64_t first = 0;

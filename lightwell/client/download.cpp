@@ -82,6 +82,16 @@ Result<uint64_t> Download::receive_head(Cursor& cursor, Bytes& bytes) {
   return 0;
 }
 
+void Download::forget_damage() {
+  strikes_.clear();
+  suspicious_ = replaced_ = false;
+  another_.clear();
+  if (opened()) return;
+  head_.clear();
+  size_ = {};
+  head_failed_ = false;
+}
+
 Result<void> Download::open() {
   const Bytes opening = Bytes(head_).first(static_cast<size_t>(size_.opening_length));
   const Bytes directory = Bytes(head_).subspan(opening.size());
@@ -117,13 +127,14 @@ uint64_t Download::read_witness(Cursor& cursor, Bytes& bytes) {
   if (offset != read_again_.size()) return 0;
   read_again_.insert(read_again_.end(), front.begin(), front.end());
   if (read_again_.size() < witness_.size()) return 0;
+  const bool asked_for = suspicious_;
   if (read_again_ == witness_) {
     suspicious_ = false;
   } else {
     replaced_ = read_again_ == another_;
     another_ = std::exchange(read_again_, {});
   }
-  return witness_.size();
+  return asked_for ? witness_.size() : 0;  // a whole file that comes again brings it, too
 }
 
 std::optional<size_t> Download::stream_at(uint64_t position) const {

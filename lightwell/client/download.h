@@ -33,6 +33,9 @@ class Download {
   bool opened() const { return directory_.has_value(); }
   /// Before that: the range [begin, end) of the file to request.
   std::pair<uint64_t, uint64_t> wanted_head() const;
+  /// Forgets failed checks, and what has come of an opening that is not complete: the bytes were not those of the
+  /// file's places that were asked for.
+  void forget_damage();
   /// The length of the file, 0 while unknown.
   uint64_t file_length() const { return size_.file_length; }
   /// True when a block was damaged or suspect() was called, so that the start of the directory should be read again to

@@ -49,11 +49,30 @@ class Requests {
     uint64_t end = 0;        ///< the body is read up to this position of the file
     std::optional<Run> run;  ///< the requested extents; nullopt for the opening and the witness
     uint64_t gained = 0;     ///< valid bytes received
+    bool answered = false;   ///< a response has begun that is to be read
+    bool arriving = false;   ///< a byte of its body has come
     double heard = 0;        ///< time of the last event
   };
   using Open = std::map<uint32_t, Request>;
 
+  /// What a server that may give less than it is asked for (RFC 9110, 15.3.7) has left to be asked.
+  struct Rest {
+    Cursor cursor;
+    uint64_t end = 0;
+    Run run;
+  };
+
   Action ask(std::pair<uint64_t, uint64_t> bytes, std::optional<Run> run, double now);
+  Action ask_for_rest(double now);
+  Action ask_for_all(double now);
+  /// Whether a request that ended has a rest that is worth asking for.
+  bool leaves_rest(const Request& request) const;
+  /// Notes that an answer was of no use. After a few in a row the whole file is asked for, and after a few of those the
+  /// server is given up.
+  void distrust();
+  void ask_for_nothing_but_all();
+  /// Takes an error for one of ranges, as long as the server has not shown that it gives those that it is asked for.
+  bool is_fault_of_ranges();
   std::optional<Action> ask_for_extents(std::span<const float> weights, double now);
   void respond_partial(Open::iterator request, std::string_view content_range, double now);
   void respond_whole(Open::iterator request);
@@ -77,6 +96,12 @@ class Requests {
   double looked_ = -1;  ///< time of the last next()
   Open open_;
   std::vector<uint32_t> cancels_;
+  std::vector<Rest> rests_;
+  uint32_t useless_ = 0;       ///< answers in a row
+  bool ranges_shown_ = false;  ///< a response has said which bytes it has
+  bool ever_gained_ = false;
+  bool whole_file_only_ = false;
+  uint64_t whole_length_ = 0;                   ///< at which the body of a whole file ended
   std::optional<uint32_t> whole_file_request_;  ///< the one whose response delivers the whole file
   std::string etag_;                            ///< the first one received
   bool etags_differ_ = false;

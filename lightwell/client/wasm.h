@@ -27,6 +27,7 @@ const uint32_t* lw_record();
 // clang-format off
 /// The next action of the client, 0 for none; call until it returns 0.
 ///   1 ask:     [0] request, [1] first byte, [2] last byte (inclusive): fetch with only the header "Range: bytes=first-last"
+///              or without it when [2] is 2^32 - 1
 ///   2 cancel:  [0] request: abort it and report nothing more about it
 // clang-format on
 uint32_t lw_next(uint32_t client, double now);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "lightwell/base/beast.h"
+#include "lightwell/client/action.h"
 #include "lightwell/transport/transport.h"
 
 namespace lightwell {
@@ -48,6 +49,16 @@ std::optional<Url> parse_url(std::string_view text) {
   return url;
 }
 
+/// Where a redirection leads: to another URL, or to another target of the same server.
+std::optional<Url> redirected(const Url& from, std::string_view location) {
+  if (!location.starts_with('/') || location.starts_with("//")) return parse_url(location);
+  return parse_url("http://" + from.authority + std::string(location));
+}
+
+bool is_redirection(unsigned status) {
+  return status == 301 || status == 302 || status == 303 || status == 307 || status == 308;
+}
+
 /// A server, and the events of the requests to it.
 struct Exchange {
   asio::io_context io;
@@ -56,6 +67,21 @@ struct Exchange {
   Url url;
   tcp::resolver::results_type addresses;
   std::deque<TransportEvent> events;
+  int redirections = 0;
+
+  /// Turns to another server or target from now on; false where that leads nowhere.
+  bool follow(std::string_view location) {
+    constexpr int most_redirections = 10;
+    std::optional<Url> next = redirected(url, location);
+    if (!next || ++redirections > most_redirections) return false;
+    error_code error;
+    tcp::resolver resolver(io);
+    const auto found = resolver.resolve(next->host, next->port, error);
+    if (error) return false;
+    addresses = found;
+    url = std::move(*next);
+    return true;
+  }
 };
 
 /// One connection, which carries one request at a time.
@@ -69,11 +95,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   void start(uint32_t request, uint64_t first, uint64_t last) {
     request_ = request;
+    first_ = first;
+    last_ = last;
     busy_ = true;
     reused_ = socket_.is_open();
     question_ = {http::verb::get, exchange_.url.target, 11};
     question_.set(http::field::host, exchange_.url.authority);
-    question_.set(http::field::range, "bytes=" + std::to_string(first) + "-" + std::to_string(last));
+    if (last != Action::to_the_end)
+      question_.set(http::field::range, "bytes=" + std::to_string(first) + "-" + std::to_string(last));
     if (reused_)
       write();
     else
@@ -119,8 +148,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void on_head() {
     if (!busy_) return;
     const auto& head = parser_->get();
+    if (is_redirection(head.result_int()) && exchange_.follow(std::string(head[http::field::location]))) {
+      close();
+      return start(request_, first_, last_);
+    }
     TransportEvent event{TransportEvent::Kind::head, request_, static_cast<int>(head.result_int()), {}, {}, {}};
-    event.content_range = std::string(head[http::field::content_range]);
+    // A part of what gzip makes of the file is no part of the file, whatever its range.
+    const bool coded =
+        !head[http::field::content_encoding].empty() && head[http::field::content_encoding] != "identity";
+    event.content_range = coded ? "coded" : std::string(head[http::field::content_range]);
     event.etag = std::string(head[http::field::etag]);
     exchange_.events.push_back(std::move(event));
     read_body();
@@ -178,6 +214,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<http::response_parser<http::buffer_body>> parser_;
   std::array<uint8_t, 16384> piece_{};
   uint32_t request_ = 0;
+  uint64_t first_ = 0, last_ = 0;
   bool busy_ = false;
   bool reused_ = false;
 };

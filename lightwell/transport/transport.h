@@ -37,7 +37,7 @@ class Transport {
 
   /// Seconds since the transport was made.
   virtual double now() = 0;
-  /// Sends a request. Its events come out of wait().
+  /// Sends a request, as Action has it. Its events come out of wait().
   virtual void ask(uint32_t request, uint64_t first, uint64_t last) = 0;
   /// Drops a request: no further event of it comes.
   virtual void cancel(uint32_t request) = 0;
@@ -48,9 +48,9 @@ class Transport {
 /// A transport for a file in memory: every answer is there at once. Its clock advances by waiting only.
 std::unique_ptr<Transport> memory_transport(std::vector<uint8_t> file);
 
-/// A transport for "http://host[:port]/path" (HTTP/1.1, connections kept alive, no redirections); an IPv6 address
-/// stands in brackets. Errors: another kind of URL (ErrorKind::bad_input), an unknown host (io). That nobody answers is
-/// a failed request, which a client tries again.
+/// A transport for "http://host[:port]/path" (HTTP/1.1, connections kept alive, redirections to such URLs followed); an
+/// IPv6 address stands in brackets. Errors: another kind of URL (ErrorKind::bad_input), an unknown host (io). That
+/// nobody answers is a failed request, which a client tries again.
 Result<std::unique_ptr<Transport>> http_transport(const std::string& url);
 
 /// How slow a line is.

@@ -134,6 +134,31 @@ TEST(Network, ServerWithoutRanges) {
   expect_exact({.lost = 0.2, .broken = 0.2, .ranges = false}, 3);
 }
 
+// Blocks are longer than what comes at once, and are put together (RFC 9110, 15.3.7).
+TEST(Network, ServerGivesLessThanItIsAskedFor) {
+  expect_exact({.longest_range = 700}, 3);
+  expect_exact({.lost = 0.2, .broken = 0.2, .longest_range = 2000}, 3);
+}
+
+/// Within 30 s, as a visitor waits.
+TEST(Network, ServersWhoseRangesAreOfNoUseAreAskedForAll) {
+  for (const Weather& weather : {Weather{.wrong_ranges = true}, Weather{.nonsense = true}, Weather{.undecodable = true},
+                                 Weather{.undecodable = true, .readable_headers = false}})
+    expect_exact(weather, 3, 30);
+}
+
+TEST(Network, ServerThatSendsTheBeginningForAnythingIsNamed) {
+  for (const uint64_t bytes : {uint64_t(10), sample().file.size() / 2}) {
+    SimulatedNetwork network({.whole_bytes = bytes, .ranges = false}, 1, sample().file);
+    const ReceivedScene scene = network.run(options_of(1), 30);
+    EXPECT_EQ(network.complaint(), "");
+    EXPECT_FALSE(scene.failure.empty()) << network.now();
+    EXPECT_TRUE(scene.failure.find("(Range)") != std::string::npos ||
+                scene.failure.find("should have") != std::string::npos)
+        << scene.failure;
+  }
+}
+
 TEST(Network, ServerGoesAndComesBack) {
   expect_exact({.rate = 1e5, .gone_from = 0.5, .gone_until = 300}, 3);
   expect_exact({.gone_from = 0, .gone_until = 1000}, 3);

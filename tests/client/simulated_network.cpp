@@ -66,21 +66,30 @@ void SimulatedNetwork::ask(const Action& action) {
   if (chance(weather_.overloaded)) {
     head.status = 503;
     last = first;
-  } else if (!weather_.ranges) {
+  } else if (!weather_.ranges || action.last == Action::to_the_end) {
     head.status = 200;
     first = 0;
-    last = file.size() - 1;
+    last = std::min<uint64_t>(file.size(), weather_.whole_bytes) - 1;
   } else if (first >= file.size()) {
     head.status = 416;
     head.content_range = "bytes */" + total;
   } else {
+    last = first + std::min(last - first, weather_.longest_range - 1);
     head.content_range = "bytes " + std::to_string(first) + "-" + std::to_string(last) + "/" + total;
   }
+  const bool partial = head.status == 206;
+  if (partial && weather_.wrong_ranges) head.content_range = "bytes 7-8/" + total;
+  if (partial && weather_.nonsense) head.content_range.clear();
   events_.emplace(time, head);
+  if (partial && weather_.undecodable) {
+    events_.emplace(time, Event{Kind::failed, action.id, 0, {}, {}, false});
+    return;
+  }
   if (head.status == 416) {
     events_.emplace(time, Event{Kind::end, action.id, 0, {}, {}, false});
     return;
   }
+  if (partial && weather_.nonsense && first > 0) first = 0, last = std::min<uint64_t>(last, file.size() - 1);
   const Bytes body = file.subspan(first, last + 1 - first);
   send_body(action.id, {body.begin(), body.end()}, time);
   if (chance(weather_.repeated)) {

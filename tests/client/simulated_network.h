@@ -27,6 +27,11 @@ struct Weather {
   double overloaded = 0;                     ///< status 503
   double repeated = 0;                       ///< the whole answer is told twice
   double busy = 0;                           ///< seconds between next() and wake()
+  uint64_t longest_range = UINT64_MAX;       ///< an answer to a range has no more bytes
+  uint64_t whole_bytes = UINT64_MAX;         ///< an answer with the whole file has no more bytes
+  bool wrong_ranges = false;                 ///< an answer to a range says that it is another
+  bool nonsense = false;                     ///< an answer to a range has other bytes, and does not say which
+  bool undecodable = false;                  ///< an answer to a range breaks before its first byte
   bool ranges = true;                        ///< false: 200 and the whole file, whatever is asked
   bool readable_headers = true;              ///< false: neither Content-Range nor ETag, as from another origin
   double gone_from = 1e9, gone_until = 1e9;  ///< no connection in this time

@@ -10,6 +10,10 @@ const SLICE = 4;
 const IN_FLIGHT = 4 << 20;
 /** An update of a mesh is cut into pieces of about this size, in bytes. */
 const PIECE = 64 << 10;
+/** Stands for a Content-Range that says nothing of use. */
+const NO_RANGE = 'none';
+/** The last byte of a request for the whole file, whatever its length. */
+const TO_THE_END = 2 ** 32 - 1;
 /** Least time between two progress events, in milliseconds. */
 const PROGRESS_INTERVAL = 100;
 
@@ -150,28 +154,33 @@ export class PackSession {
     this.#requests.set(request, controller);
     const report = (tell: (client: WasmClient) => void) => signal.aborted || this.#run(tell);
     try {
-      const response = await fetch(this.#url, { headers: { Range: `bytes=${first}-${last}` }, signal });
+      const headers: HeadersInit = last === TO_THE_END ? {} : { Range: `bytes=${first}-${last}` };
+      const response = await fetch(this.#url, { headers, signal });
       this.#answered = true;
       const header = (name: string) => response.headers.get(name) ?? '';
       report((client) => client.respond(request, response.status, header('Content-Range'), header('ETag'), now()));
       await readBody(response, (bytes) => report((client) => client.receive(request, bytes, now())));
       report((client) => client.finish(request, now()));
     } catch {
-      if (!signal.aborted && (await this.#isForbidden())) this.#giveUp(FORBIDDEN, 'refused');
-      report((client) => client.fail(request, now()));
+      const fault = signal.aborted ? 'line' : await this.#fault();
+      if (fault === 'permission') this.#giveUp(FORBIDDEN, 'refused');
+      if (fault === 'ranges') report((client) => client.respond(request, 206, NO_RANGE, '', now()));
+      else report((client) => client.fail(request, now()));
     }
     this.#requests.delete(request);
   }
 
   /**
-   * Whether the server is there but lets no page of this origin read the file, which browsers report as they report a broken
-   * connection. The first request shows that the server is there: it needs no permission, and may not ask for a range. The second
-   * asks for a byte as the client does, since a server may treat HEAD differently.
+   * What is wrong where nothing was answered, which browsers report as they report a broken connection. The first request shows whether the
+   * server is there: it needs no permission, and may not ask for a range. The second asks for a byte as the client does, since a server
+   * may treat HEAD differently; the third for the file as anybody does, since one that codes what it sends in parts sends nonsense.
    */
-  async #isForbidden(): Promise<boolean> {
-    if (this.#answered || new URL(this.#url).origin === origin) return false;
+  async #fault(): Promise<'line' | 'permission' | 'ranges'> {
     const reach = (init: RequestInit) => fetch(this.#url, init).then(({ body }) => (void body?.cancel(), true), () => false);
-    return (await reach({ method: 'HEAD', mode: 'no-cors' })) && !(await reach({ headers: { Range: 'bytes=0-0' } }));
+    if (this.#answered || !(await reach({ method: 'HEAD', mode: 'no-cors' }))) return 'line';
+    if (await reach({ headers: { Range: 'bytes=0-0' } })) return 'line';
+    if (await reach({})) return 'ranges';
+    return new URL(this.#url).origin === origin ? 'line' : 'permission';
   }
 
   #report(client: WasmClient, events: PackEvent[], time: number): void {
