@@ -74,8 +74,14 @@ class LatticeExpectation {
     for (size_t p = 0; p < used_count_; p++)
       for (size_t i = 0; i < count; i++) sum[i] += used_[p][i];
     const auto parents = static_cast<int64_t>(used_count_);
+    // Rounded down after a half is added, below zero too. Most nodes have two or four parents: then it is a shift.
+    const int shift = std::bit_width(used_count_);
+    if (std::has_single_bit(used_count_)) {
+      for (size_t i = 0; i < count; i++) means_[i] = static_cast<int32_t>((2 * sum[i] + parents) >> shift);
+      return;
+    }
     for (size_t i = 0; i < count; i++) {
-      const int64_t twice = 2 * sum[i] + parents;  // rounded down when halved, below zero too
+      const int64_t twice = 2 * sum[i] + parents;
       means_[i] = static_cast<int32_t>((twice >= 0 ? twice : twice - 2 * parents + 1) / (2 * parents));
     }
   }

@@ -4,6 +4,7 @@
 // M_b)/2, which it never exceeds. To the scaled E 2^-4 is added, below which nothing is told apart: a 16,000th of the
 // largest.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "lightwell/base/assert.h"
@@ -42,14 +43,12 @@ class MomentsRecordInSteps final : public LatticeRecord {
 
   Moments decode(std::span<const int32_t> numbers) const override {
     Moments moments;
-    for (size_t i = 0; i < 27; i++) {
-      const size_t entry = i / 3;
-      const int c = coded_colours[i % 3];
-      if (entry < 6) {
-        moments.m[entry][c] = irradiance(numbers[i]);
-      } else {
-        const float bound = mixed_bound(moments, entry - 6)[c] / static_cast<float>(steps_);
-        moments.m[entry][c] = static_cast<float>(numbers[i]) * bound;
+    for (size_t i = 0; i < 18; i++) moments.m[i / 3][coded_colours[i % 3]] = irradiance(numbers[i]);
+    for (size_t pair = 0; pair < 3; pair++) {
+      const Vec3f bound = mixed_bound(moments, pair) / static_cast<float>(steps_);
+      for (size_t k = 0; k < 3; k++) {
+        const int c = coded_colours[k];
+        moments.m[6 + pair][c] = static_cast<float>(numbers[18 + 3 * pair + k]) * bound[c];
       }
     }
     return moments;
@@ -57,7 +56,7 @@ class MomentsRecordInSteps final : public LatticeRecord {
 
  private:
   float irradiance(int32_t number) const {
-    const int32_t octave = (number >= 0 ? number : number - steps_ + 1) / steps_;
+    const int32_t octave = number >> std::countr_zero(static_cast<uint32_t>(steps_));  // rounded down
     const float power = power_of_two(octave) * fraction_[static_cast<size_t>(number - octave * steps_)];
     return std::max(power - moments_darkness, 0.0f) / scale_;
   }
