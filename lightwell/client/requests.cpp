@@ -166,7 +166,11 @@ void Requests::finish(uint32_t id, double now) {
   }
   const bool failed = ended.gained == 0;
   const bool whole = whole_file_request_ == id;
-  if (whole) whole_length_ = ended.cursor.position;
+  if (whole) {
+    const uint64_t length = ended.cursor.position, stated = download_.opened() ? download_.file_length() : 0;
+    if (whole_file_only_ && length < stated && length == whole_length_) return give_up(wrong_length(length, stated));
+    whole_length_ = length;
+  }
   if (failed && (whole || (ended.answered && !ended.arriving))) distrust();
   if (const auto left = open_.find(id); left != open_.end()) end(left, failed, now);
 }
@@ -181,8 +185,6 @@ void Requests::distrust() {
   if (++useless_ < most_useless) return;
   useless_ = 0;
   if (!whole_file_only_) return ask_for_nothing_but_all();
-  const uint64_t stated = download_.file_length();
-  if (stated > whole_length_ && download_.opened()) return give_up(wrong_length(whole_length_, stated));
   give_up(FailureUpdate::Reason::refused,
           "the server's answers to requests for parts of the file (Range) are of no use, nor is its whole answer");
 }
@@ -246,6 +248,7 @@ void Requests::check_length(uint64_t length) {
   else if (stated != 0 && stated != length && download_.opened()) {
     // It may be the length of what a server makes of the file on the way, such as gzip.
     if (whole_file_only_ || whole_file_request_) return give_up(wrong_length(length, stated));
+    whole_length_ = length;  // or that of a file that has been cut
     ask_for_nothing_but_all();
   }
 }

@@ -101,7 +101,7 @@ class Requests {
   bool ranges_shown_ = false;  ///< a response has said which bytes it has
   bool ever_gained_ = false;
   bool whole_file_only_ = false;
-  uint64_t whole_length_ = 0;                   ///< at which the body of a whole file ended
+  uint64_t whole_length_ = 0;  ///< of the file as the server has it, by its word or the end of a whole body
   std::optional<uint32_t> whole_file_request_;  ///< the one whose response delivers the whole file
   std::string etag_;                            ///< the first one received
   bool etags_differ_ = false;

@@ -48,7 +48,7 @@ test('a file that is not there', async (t) => {
 
 test('a file that is cut short', async (t) => {
   const { page, errors } = await openPack(t, { bytes: PACK.subarray(0, PACK.length / 2) });
-  await notice(page, `^This scene cannot be shown.*has ${Math.floor(PACK.length / 2)} bytes, but should have ${PACK.length}`);
+  await notice(page, `^The rest of this scene cannot be shown.*has ${Math.floor(PACK.length / 2)} bytes, but should have ${PACK.length}`);
   assertOneLine(errors);
 });
 
