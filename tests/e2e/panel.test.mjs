@@ -204,6 +204,8 @@ test('the switches of measuring and of the raking light follow the element', asy
   await page.getByLabel('Raking light').uncheck();
   await page.getByRole('application').waitFor({ state: 'detached' });
   await page.getByLabel('Measure').check();
+  // The script comes when it is wanted; the cursor tells that it is there.
+  await page.waitForFunction(() => document.querySelector('lightwell-view').style.cursor === 'crosshair');
   await page.mouse.click(600, 200);
   await page.mouse.click(700, 400);
   await page.locator('lightwell-view output').filter({ hasText: / m$/ }).waitFor();
