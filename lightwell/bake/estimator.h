@@ -66,7 +66,7 @@ struct EstimatorOptions {
   /// The luminaires whose direct light goes into the grid as well.
   LuminaireSet contained;
   bool reflected = true;  ///< whether what surfaces reflect is gathered
-  float effort = 1;       ///< of the rays that gathering takes by default, and of its noise's inverse square
+  float effort = 1;       ///< share of the rays that gathering takes by default
   int threads = 0;        ///< 0: all processors
   /// Of what was gathered before this run, if any.
   NodeJournal* journal = nullptr;

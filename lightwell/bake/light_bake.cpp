@@ -45,7 +45,7 @@ Effort effort_of(const LightBakeOptions& options, Clock::time_point start, bool 
   if (options.nodes > 0) return {.nodes = options.nodes};
   Effort effort{.nodes = coarse_nodes, .adaptive = true, .most_bytes = options.most_bytes};
   if (surroundings) effort.most_bytes /= share_of_surroundings;
-  // An error of three times as much takes a ninth of the rays; but noise shows before it is measured.
+  // Three times the error would do with a ninth of the rays; it gets a third, since noise shows before it is measured.
   constexpr float usual_error = 0.01f, least_rays = 0.25f;
   effort.rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
   if (options.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
@@ -207,8 +207,7 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   options.estimator.effort = effort.rays;
   const EstimatorOptions& estimator = options.estimator;
   LW_TRY(shapes, place_nodes(world, space, box, effort));
-  const float cells_a_cell = effort.adaptive ? 6 : 3;
-  const float cell = max_component(shapes.front().cell) / cells_a_cell;
+  const float cell = max_component(shapes.front().cell) / static_cast<float>(effort.adaptive ? 6 : 3);
   LW_TRY(cache, light_surfaces(world, box, shapes.front(), cell, estimator, progress));
   const BakeScene scene{world, space, cache, box};
   const GatheredLight light(scene, estimator);

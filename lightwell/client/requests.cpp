@@ -117,8 +117,7 @@ void Requests::respond_whole(Open::iterator request) {
     if (current->second.run) order_.unasked(*current->second.run);
     open_.erase(current);
   }
-  for (const Rest& rest : rests_) order_.unasked(rest.run);
-  rests_.clear();
+  drop_rests();
 }
 
 void Requests::respond_refused(Open::iterator request, const ResponseHead& head, double now) {
@@ -183,7 +182,6 @@ bool Requests::leaves_rest(const Request& request) const {
 
 void Requests::distrust() {
   if (++useless_ < most_useless) return;
-  useless_ = 0;
   if (!whole_file_only_) return ask_for_nothing_but_all();
   give_up(FailureUpdate::Reason::refused,
           "the server's answers to requests for parts of the file (Range) are of no use, nor is its whole answer");
@@ -198,10 +196,14 @@ void Requests::ask_for_nothing_but_all() {
     cancels_.push_back(id);
     if (request.run) order_.unasked(*request.run);
   }
-  for (const Rest& rest : rests_) order_.unasked(rest.run);
   open_.clear();
-  rests_.clear();
+  drop_rests();
   whole_file_request_.reset();
+}
+
+void Requests::drop_rests() {
+  for (const Rest& rest : rests_) order_.unasked(rest.run);
+  rests_.clear();
 }
 
 bool Requests::is_fault_of_ranges() {

@@ -71,6 +71,7 @@ class Requests {
   /// server is given up.
   void distrust();
   void ask_for_nothing_but_all();
+  void drop_rests();
   /// Takes an error for one of ranges, as long as the server has not shown that it gives those that it is asked for.
   bool is_fault_of_ranges();
   std::optional<Action> ask_for_extents(std::span<const float> weights, double now);

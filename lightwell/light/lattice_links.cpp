@@ -15,10 +15,9 @@ namespace {
 template <typename Coder>
 void code(Coder& coder, const Vec3i& nodes, std::vector<uint8_t>& links) {
   std::array<std::array<AdaptiveBit, 8>, 3> models;
+  const GridShape shape{.lo = {}, .cell = {}, .nodes = nodes};
   for (size_t i = 0; i < links.size(); i++) {
-    const Vec3i n{{static_cast<int>(i % static_cast<size_t>(nodes[0])),
-                   static_cast<int>(i / static_cast<size_t>(nodes[0]) % static_cast<size_t>(nodes[1])),
-                   static_cast<int>(i / (static_cast<size_t>(nodes[0]) * static_cast<size_t>(nodes[1])))}};
+    const Vec3i n = shape.node(i);
     const uint8_t wanted = links[i];
     links[i] = 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -27,7 +26,7 @@ void code(Coder& coder, const Vec3i& nodes, std::vector<uint8_t>& links) {
       for (int b = 0; b < 3; b++) {
         Vec3i before = n;
         before[b]--;
-        const bool blocked = before[b] >= 0 && (links[node_index(nodes, before)] >> axis & 1) != 0;
+        const bool blocked = before[b] >= 0 && (links[shape.index(before)] >> axis & 1) != 0;
         around |= static_cast<size_t>(blocked) << b;
       }
       const bool bit = coder.bit(models[static_cast<size_t>(axis)][around], (wanted >> axis & 1) != 0);

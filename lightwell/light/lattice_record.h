@@ -96,7 +96,6 @@ class LatticeNumbers {
 
   std::span<int32_t> operator[](size_t node) { return {numbers_.data() + node * stride_, stride_}; }
   std::span<const int32_t> operator[](size_t node) const { return {numbers_.data() + node * stride_, stride_}; }
-  size_t stride() const { return stride_; }
 
  private:
   size_t stride_ = 1;
