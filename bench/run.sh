@@ -101,13 +101,13 @@ bench_peer() {
   show node bench/peer_three.mjs "$shared"
 }
 
-# A row of real scenes: a default bake against the path tracer at 300 points of the scene's own surfaces. The path tracer's noise,
-# 1 to 2 % in rooms with lamps and more where the sky comes in by windows, is in it.
+# A row of real scenes: a default bake against the path tracer at 300 points of the scene's own surfaces. The path tracer's noise, up to
+# 1 % where the sky comes in by windows, is in it.
 real_row() { # NAME SCENE [options of the environment]
   local name=$1 scene=$2
   shift 2
   mkdir -p "$out/real"
-  python3 "$shared/tools/surface_rms.py" "$lightwell" "$scene" "$out/real" --points 300 --spp 1024 "$@" >"$out/real/row.json" 2>"$out/real/errors" ||
+  python3 "$shared/tools/surface_rms.py" "$lightwell" "$scene" "$out/real" --points 300 --spp 16384 "$@" >"$out/real/row.json" 2>"$out/real/errors" ||
     { echo "| $name | failed: $(tail -1 "$out/real/errors") |"; return; }
   python3 -c 'import json, sys
 r = json.load(open(sys.argv[2]))

@@ -21,10 +21,8 @@ constexpr size_t likely_brick_bytes = 300;
 /// what the light does.
 constexpr int sets_a_node = 4;
 
-/// Points whose lookups are followed, and the normal offset of these, as a good grid has it, in cells.
-constexpr size_t followed_points = 20'000;
-constexpr float followed_offset = 0.25f;
-constexpr uint64_t followed_seed = 0x51de;
+/// A node that sees a greater share of insides stands in a solid, as far as walls between nodes are concerned.
+constexpr float most_insides = 0.25f;
 
 uint64_t key_of(const Brick& brick, int point) { return lattice_place(brick.level, brick.corner(point)); }
 
@@ -47,9 +45,11 @@ std::optional<Brick> dividing(const BrickTree& tree, const Vec3f& place) {
 /// Stein).
 class Quietened {
  public:
-  void add_beside(const Moments& moments) {
-    sum_ += moments;
-    count_++;
+  /// Two opposite ones: one alone would take every slope for noise.
+  void add_between(const Moments& a, const Moments& b) {
+    sum_ += a;
+    sum_ += b;
+    count_ += 2;
   }
   /// `noise` as in NodeSurroundings.
   Moments of(const Moments& moments, float noise) const {
@@ -74,8 +74,10 @@ void quieten(LightGrid& grid, const std::vector<float>& noise) {
   for (const LatticeNode& place : lattice_order(grid.shape.nodes)) {
     if (!grid.valid[place.node]) continue;
     Quietened quietened;
-    for (size_t i = 0; i < place.parent_count; i++)
-      if (grid.valid[place.parents[i]]) quietened.add_beside(grid.moments[place.parents[i]]);
+    for (size_t i = 0; i + 1 < place.parent_count; i += 2) {
+      const uint32_t a = place.parents[i], b = place.parents[i + 1];
+      if (grid.valid[a] && grid.valid[b]) quietened.add_between(grid.moments[a], grid.moments[b]);
+    }
     grid.moments[place.node] = quietened.of(grid.moments[place.node], noise[place.node]);
   }
 }
@@ -91,12 +93,14 @@ void quieten(BrickPoints& points, const PointNoise& noise, const std::vector<int
     Quietened quietened;
     for (int axis = 0; axis < 3; axis++) {
       if (local[axis] % 2 == 0) continue;
-      for (const int step : {-1, 1}) {
+      const auto beside = [&](int step) {
         Vec3i place = local;
         place[axis] += step;
-        const BrickPoint& beside = points[static_cast<size_t>(Brick::point(place))];
-        if (beside.weight > node_weight(false)) quietened.add_beside(beside.moments);
-      }
+        return points[static_cast<size_t>(Brick::point(place))];
+      };
+      const BrickPoint below = beside(-1), above = beside(1);
+      if (below.weight > node_weight(false) && above.weight > node_weight(false))
+        quietened.add_between(below.moments, above.moments);
     }
     light.moments = quietened.of(light.moments, noise[static_cast<size_t>(point)]);
   }
@@ -136,21 +140,29 @@ AdaptiveLight::AdaptiveLight(const GatheredLight& light, const GridShape& shape,
       threads_(threads),
       tree_(shape.cells()),
       brick_nodes_(tree_),
-      sides_(light.world().surfaces(), light.box(), followed_points, followed_seed),
+      sides_(light.world().surfaces(), light.box()),
       links_(light.world().surfaces(), light.box()) {
-  follow();
+  sides_.follow(shape_, tree_, threads_);
+  follow_links();
 }
 
-void AdaptiveLight::follow() {
-  sides_.follow(shape_, tree_, followed_offset, threads_);
+void AdaptiveLight::follow_links() {
   links_.follow(shape_, tree_, threads_);
   // A lookup on a wall reaches the node behind it where it reaches the one before it, though none of those that were
-  // followed may have done so.
+  // followed may have done so. What stands within the wall is no node before it.
   behind_.clear();
+  std::unordered_set<uint64_t> inside;
+  for (size_t node = 0; node < nodes_.insides.size(); node++)
+    if (nodes_.insides[node] > most_insides) inside.insert(lattice_place(0, shape_.node(node)));
+  for (const auto& [place, node] : gathered_)
+    if (node.insides > most_insides) inside.insert(place);
+  const auto reached = [&](uint64_t place) { return sides_.balance(place) > 0; };
+  const auto hides = [&](uint64_t front, uint64_t back) {
+    return reached(front) && !reached(back) && !inside.contains(front);
+  };
   links_.for_each_blocked(shape_, tree_, [&](uint64_t a, uint64_t b) {
-    const float of_a = sides_.balance(a), of_b = sides_.balance(b);
-    if (of_a > 0 && of_b <= 0) behind_.insert(b);
-    if (of_b > 0 && of_a <= 0) behind_.insert(a);
+    if (hides(a, b)) behind_.insert(b);
+    if (hides(b, a)) behind_.insert(a);
   });
 }
 
@@ -214,6 +226,7 @@ Result<LightGrid> AdaptiveLight::relit(const LightGrid& like, const GatheredLigh
 Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& progress) {
   for (const Brick& brick : bricks) tree_.add(brick);
   brick_nodes_ = BrickNodes(tree_);
+  sides_.follow(shape_, tree_, threads_);
   std::vector<BrickNode> missing;
   for (const BrickNode& node : brick_nodes_.nodes())
     if (!gathered_.contains(key_of(tree_.bricks()[node.brick], node.point))) missing.push_back(node);
@@ -225,7 +238,8 @@ Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& p
           const Brick& brick = tree_.bricks()[missing[i].brick];
           const Vec3f cell = shape_.cell * std::ldexp(1.0f, -brick.level);
           const Vec3f position = shape_.lo + cell * brick.corner(missing[i].point).cast<float>();
-          found[i] = light_.at_node(position, cell, sets_a_node);
+          const Facings facings = sides_.facings(key_of(brick, missing[i].point));
+          found[i] = light_.at_node(position, cell, facings, sets_a_node);
         }
       },
       [&] { return progress.cancelled(); });
@@ -235,7 +249,7 @@ Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& p
                                                                              found[i].noise};
     nodes_.rays += found[i].rays;
   }
-  follow();
+  follow_links();
   return {};
 }
 

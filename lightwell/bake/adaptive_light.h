@@ -69,7 +69,7 @@ class AdaptiveLight {
 
   std::vector<Brick> worst_bricks(const TestPoints& points, const LightGrid& grid, size_t count) const;
   Result<void> divide(const std::vector<Brick>& bricks, Progress& progress);
-  void follow();
+  void follow_links();
   void keep_within(const RefinementOptions& options, const NodeRule& rule);
   LightGrid best_grid(const TestPoints& points, NodeRule& rule) const;
 

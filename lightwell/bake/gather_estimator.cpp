@@ -2,6 +2,7 @@
 #include "lightwell/bake/gather_estimator.h"
 
 #include "lightwell/bake/gathered_light.h"
+#include "lightwell/bake/lookup_sides.h"
 
 namespace lightwell {
 namespace {
@@ -28,7 +29,9 @@ struct FinishedNodes : public PartialLight {
 class GatherEstimator : public Estimator {
  public:
   GatherEstimator(const BakeScene& scene, const GridShape& shape, const EstimatorOptions& options)
-      : shape_(shape), light_(scene, options) {}
+      : shape_(shape), light_(scene, options), lookups_(scene.world.surfaces(), scene.box) {
+    lookups_.follow(shape, BrickTree(shape.cells()), options.threads);
+  }
 
   uint64_t samples() const override { return shape_.count(); }
   std::string_view unit() const override { return "nodes"; }
@@ -39,7 +42,9 @@ class GatherEstimator : public Estimator {
   void add(uint64_t begin, uint64_t end, PartialLight& sum) const override {
     auto& nodes = static_cast<FinishedNodes&>(sum);
     for (uint64_t node = begin; node < end; node++) {
-      const auto found = light_.at_node(shape_.position(shape_.node(node)), shape_.cell);
+      const Vec3i corner = shape_.node(node);
+      const auto found =
+          light_.at_node(shape_.position(corner), shape_.cell, lookups_.facings(lattice_place(0, corner)));
       nodes.moments[node] = found.moments;
       nodes.noise[node] = found.noise;
       nodes.insides[node] = found.insides;
@@ -55,6 +60,7 @@ class GatherEstimator : public Estimator {
  private:
   const GridShape shape_;
   const GatheredLight light_;
+  LookupSides lookups_;
 };
 
 }  // namespace

@@ -3,8 +3,10 @@
 
 #include <bit>
 
+#include "lightwell/bake/fitted_moments.h"
 #include "lightwell/bake/node_journal.h"
 #include "lightwell/bake/sheets.h"
+#include "lightwell/base/fingerprint.h"
 
 namespace lightwell {
 namespace {
@@ -66,7 +68,7 @@ Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell) {
   return position;
 }
 
-NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, int rays) const {
+NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, int rays, const Facings& facings) const {
   NodeSurroundings found;
   const float shift = random.uniform(), turn = random.uniform();
   const float solid_angle = 4 * pi / static_cast<float>(rays);
@@ -77,6 +79,8 @@ NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, in
     add_radiance(found.moments, direction, radiance);
     add_radiance(alternating, direction, radiance * sign);
     sign = -sign;
+    for (size_t i = 0; i < facings.size() && facings[i].weight > 0; i++)
+      found.received[i] += radiance * std::max(dot(facings[i].normal, direction), 0.0f);
   };
   for (int i = 0; i < rays; i++) {
     const Vec3f direction = sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
@@ -99,40 +103,47 @@ NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, in
   return found;
 }
 
-NodeSurroundings GatheredLight::without_much_noise(const Vec3f& position, int most_sets, Random& random) const {
-  NodeSurroundings sum = around(position, random);
+NodeSurroundings GatheredLight::without_much_noise(const Vec3f& position, const Facings& facings, int most_sets,
+                                                   Random& random) const {
+  NodeSurroundings sum = around(position, random, rays_a_node, facings);
   int sets = 1;
   const bool matters = sum.insides < seldom_insides && size_of(sum.moments) > dark_;
   float noise = sum.noise;
   const float most_noise = usual_noise / std::sqrt(std::sqrt(effort_));
   for (; matters && sets < most_sets && noise > most_noise; sets++) {
-    const NodeSurroundings more = around(position, random);
+    const NodeSurroundings more = around(position, random, rays_a_node, facings);
     sum.moments += more.moments;
     sum.insides += more.insides;
     sum.noise += more.noise;
     sum.rays += more.rays;
+    for (size_t i = 0; i < sum.received.size(); i++) sum.received[i] += more.received[i];
     noise = sum.noise / std::pow(static_cast<float>(sets + 1), 1.5f);
   }
   const float share = 1 / static_cast<float>(sets);
   sum.moments = sum.moments * share;
+  for (Vec3f& received : sum.received) received *= share;
   sum.insides *= share;
   sum.noise = noise;
   return sum;
 }
 
-NodeSurroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, int most_sets) const {
-  const uint64_t key = NodeJournal::key(inputs_, node, cell);
+NodeSurroundings GatheredLight::at_node(const Vec3f& node, const Vec3f& cell, const Facings& facings,
+                                        int most_sets) const {
+  const auto* bytes = reinterpret_cast<const uint8_t*>(facings.data());
+  const uint64_t key = NodeJournal::key(fingerprint({bytes, sizeof(facings)}, inputs_), node, cell);
   if (const auto known = journal_ != nullptr ? journal_->find(key) : std::nullopt) return *known;
   Random random(seed_, NodeJournal::key(0, node, cell));
-  const NodeSurroundings found = gather_node(node, cell, most_sets, random);
+  const NodeSurroundings found = gather_node(node, cell, facings, most_sets, random);
   if (journal_ != nullptr) journal_->add(key, found);
   return found;
 }
 
-NodeSurroundings GatheredLight::gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const {
+NodeSurroundings GatheredLight::gather_node(const Vec3f& node, const Vec3f& cell, const Facings& facings, int most_sets,
+                                            Random& random) const {
   const Vec3f position = viewpoint(box_, node, cell);
   const int affordable = std::max(1, static_cast<int>(static_cast<float>(most_sets) * effort_));
-  NodeSurroundings found = without_much_noise(position, affordable, random);
+  NodeSurroundings found = without_much_noise(position, facings, affordable, random);
+  found.moments = fitted(found.moments, facings, found.received);
   for (int axis = 0; axis < 3; axis++) {
     // What lies behind the outermost surfaces is seen by none unless a sky lights it.
     if (position[axis] != node[axis] && world_.lights().environment().black()) continue;

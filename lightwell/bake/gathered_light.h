@@ -20,21 +20,23 @@ class GatheredLight {
 
   /// The light of a node: what is around its viewpoint(). But where it lies close behind a surface that has one side, E
   /// of the direction in which that faces is what arrives there: lookups in front of it reach back to the node. One
-  /// that lies on a sheet is all insides. What the options' journal knows is taken from there. The same whenever and by
-  /// whichever thread it is asked for.
-  NodeSurroundings at_node(const Vec3f& node, const Vec3f& cell, int most_sets = 16) const;
+  /// that lies on a sheet is all insides. It is fitted() to the surfaces whose lookups reach it. What the options'
+  /// journal knows is taken from there. The same whenever and by whichever thread it is asked for.
+  NodeSurroundings at_node(const Vec3f& node, const Vec3f& cell, const Facings& facings = {}, int most_sets = 16) const;
 
   /// A set of rays from a node. As many again are taken up to `most_sets` times, less with less effort, where they
   /// leave much noise, which shows as blotches on flat walls: in a room they leave 1.4 % (docs/light.md section 3:
   /// evenly spread, 64 leave 4 %).
   static constexpr int rays_a_node = 256;
-  NodeSurroundings around(const Vec3f& position, Random& random, int rays = rays_a_node) const;
+  NodeSurroundings around(const Vec3f& position, Random& random, int rays = rays_a_node,
+                          const Facings& facings = {}) const;
 
   /// What a surface receives. Rays that end within so many cells of the surface cache are followed on: see gather().
   Received received(const Vec3f& position, const Vec3f& normal, int rays, Random& random, float near = 1) const;
 
  private:
-  NodeSurroundings gather_node(const Vec3f& node, const Vec3f& cell, int most_sets, Random& random) const;
+  NodeSurroundings gather_node(const Vec3f& node, const Vec3f& cell, const Facings& facings, int most_sets,
+                               Random& random) const;
   Vec3f reflected(const Gathering& gathering) const { return reflected_ ? cache_.reflected(gathering) : Vec3f{}; }
   /// The radiance that the contained luminaires send straight along a ray, weighted beside samples of the luminaires;
   /// `density` is that of the rays, 1/sr.
@@ -42,7 +44,8 @@ class GatheredLight {
   /// A point of the last surface on the way, within `reach`, that faces along it, when only backs are met before;
   /// nothing when there is none.
   std::optional<Vec3f> facing_surface(const Vec3f& position, const Vec3f& direction, float reach, Random& random) const;
-  NodeSurroundings without_much_noise(const Vec3f& position, int most_sets, Random& random) const;
+  NodeSurroundings without_much_noise(const Vec3f& position, const Facings& facings, int most_sets,
+                                      Random& random) const;
   template <typename Add>
   uint32_t sample_luminaires(const Vec3f& position, const Vec3f& normal, Random& random, const Add& add) const;
 

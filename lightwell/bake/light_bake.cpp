@@ -31,6 +31,10 @@ using Clock = std::chrono::steady_clock;
 
 int scaled(int count, float share) { return static_cast<int>(std::lround(static_cast<float>(count) * share)); }
 
+/// Of the light that test points are told, as far as that is to be had: what is left is taken out of their error, which
+/// cannot tell much smaller ones.
+constexpr float most_noise = 0.02f;
+
 /// What one grid may take.
 struct Effort {
   int nodes = 0;  ///< on the longest axis, before it is divided
@@ -213,6 +217,7 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   const GatheredLight light(scene, estimator);
   TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
   testing.rays = scaled(testing.rays, effort.rays);
+  testing.most_noise = most_noise;
   LW_TRY(test, TestPoints::gather(light, testing, progress));
 
   statistics.rays += cache.rays();
@@ -227,9 +232,10 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   if (effort.adaptive) {
     // Points of their own: what the grid was fitted to would tell nothing of its error.
     TestPointOptions fitting = testing;
-    fitting.surface_points = static_cast<size_t>(scaled(4000, std::sqrt(effort.rays)));
+    fitting.most_noise = std::numeric_limits<float>::infinity();
+    fitting.surface_points = static_cast<size_t>(scaled(16'000, std::sqrt(effort.rays)));
     fitting.free_points = static_cast<size_t>(scaled(1000, std::sqrt(effort.rays)));
-    fitting.rays /= 4;
+    fitting.rays /= 8;
     fitting.near = 8;
     fitting.seed ^= 0xb71c;
     LW_TRY(fit, TestPoints::gather(light, fitting, progress));

@@ -13,58 +13,113 @@ namespace {
 /// Of what a tenth of all points have at least: places that are darker lie in gaps that nobody sees.
 constexpr float least_lit = 0.03f;
 /// A place that sees a greater share of insides is no free space, and a surface there is buried in a solid.
-constexpr float most_insides = 0.25f, most_buried = 0.9f;
+constexpr float most_insides = 0.25f, most_buried = 0.5f;
 /// One that sees next to nothing but backs is outside of what the scene is about: under a floor that is a sheet.
 constexpr float most_behind = 0.9f;
+
+/// As often the points' rays are taken as their noise asks for.
+constexpr int most_passes = 16;
 
 float brightness(const Vec3f& light) { return light[0] + light[1] + light[2]; }
 
 }  // namespace
 
+/// What is gathered at a point, in two halves whose difference tells their noise.
+class TestPoints::Estimate {
+ public:
+  void place(const Box3f& box, const SurfaceSampler& surfaces, bool on_surface, Random& random) {
+    on_surface_ = on_surface;
+    if (on_surface) {
+      const SurfacePoint sampled = surfaces.sample(random);
+      position_ = sampled.position;
+      normal_ = sampled.normal;
+      return;
+    }
+    const Vec3f share{{random.uniform(), random.uniform(), random.uniform()}};
+    position_ = box.lo + box.size() * share;
+    normal_ = sample_sphere(random);
+  }
+
+  void add(const GatheredLight& light, const TestPointOptions& options, Random& random) {
+    passes_++;
+    for (Vec3f& half : halves_) {
+      if (on_surface_) {
+        const Received found = light.received(position_, normal_, options.rays / 2, random, options.near);
+        half += found.irradiance;
+        insides_ += found.insides / 2;
+      } else {
+        const NodeSurroundings found = light.around(position_, random, options.rays / 2);
+        half += found.moments.irradiance(normal_);
+        insides_ += found.insides / 2;
+        behind_ += found.behind / 2;
+      }
+    }
+  }
+
+  /// Dark where nobody sees it.
+  Point point() const {
+    const float passes = static_cast<float>(passes_);
+    const bool hidden = on_surface_ ? insides_ > most_buried * passes
+                                    : insides_ > most_insides * passes || behind_ > most_behind * passes;
+    Point point{.position = position_, .normal = normal_, .irradiance = {}, .variance = {}};
+    if (!hidden) point.set(halves_[0] / passes, halves_[1] / passes);
+    return point;
+  }
+
+ private:
+  bool on_surface_ = false;
+  Vec3f position_{}, normal_{};
+  std::array<Vec3f, 2> halves_{};
+  float insides_ = 0, behind_ = 0;
+  int passes_ = 0;
+};
+
 Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPointOptions& options, Progress& progress) {
   TestPoints test;
-  const Box3f& box = light.box();
-  const SurfaceSampler surfaces(light.world().surfaces(), box);
+  const SurfaceSampler surfaces(light.world().surfaces(), light.box());
   if (surfaces.empty()) return test;
   const size_t count = options.surface_points + options.free_points;
-  test.points_.resize(count);
   progress.stage("estimating the error", static_cast<double>(count), "points");
-  // Two sets of rays a point: their difference tells their noise.
-  const auto on_surface = [&](Point& point, Random& random) {
-    const SurfacePoint sampled = surfaces.sample(random);
-    point.position = sampled.position;
-    point.normal = sampled.normal;
-    const auto received = [&] {
-      return light.received(point.position, point.normal, options.rays / 2, random, options.near);
-    };
-    const Received a = received(), b = received();
-    if (a.insides + b.insides <= 2 * most_buried) point.set(a.irradiance, b.irradiance);
-  };
-  const auto in_free_space = [&](Point& point, Random& random) {
-    const Vec3f share{{random.uniform(), random.uniform(), random.uniform()}};
-    point.position = box.lo + box.size() * share;
-    point.normal = sample_sphere(random);
-    const auto a = light.around(point.position, random, options.rays / 2);
-    const auto b = light.around(point.position, random, options.rays / 2);
-    if (a.insides + b.insides <= 2 * most_insides && a.behind + b.behind <= 2 * most_behind)
-      point.set(a.moments.irradiance(point.normal), b.moments.irradiance(point.normal));
-  };
-  parallel_for(
-      count, 4, options.threads,
-      [&](size_t begin, size_t end, int) {
-        for (size_t i = begin; i < end; i++) {
-          Random random(options.seed, i);
-          i < options.surface_points ? on_surface(test.points_[i], random) : in_free_space(test.points_[i], random);
-        }
-      },
-      [&] { return progress.cancelled(); });
-  if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
+  std::vector<Estimate> estimates(count);
   std::vector<Point>& points = test.points_;
+  for (int pass = 0; pass < most_passes; pass++) {
+    parallel_for(
+        count, 4, options.threads,
+        [&](size_t begin, size_t end, int) {
+          for (size_t i = begin; i < end; i++) {
+            Random place(options.seed, i);
+            Estimate& estimate = estimates[i];
+            if (pass == 0) estimate.place(light.box(), surfaces, i < options.surface_points, place);
+            Random more(options.seed + static_cast<uint64_t>(pass), ~i);
+            estimate.add(light, options, pass == 0 ? place : more);
+          }
+        },
+        [&] { return progress.cancelled(); });
+    if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
+    points.clear();
+    for (const Estimate& estimate : estimates) points.push_back(estimate.point());
+    keep_lit(points);
+    if (test.noise() <= options.most_noise) break;
+  }
+  return test;
+}
+
+/// Leaves out what is too dark to be seen.
+void TestPoints::keep_lit(std::vector<Point>& points) {
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return brightness(a.irradiance) < brightness(b.irradiance); });
   const float least = least_lit * brightness(points[points.size() * 9 / 10].irradiance);
   if (least > 0) std::erase_if(points, [&](const Point& point) { return !(brightness(point.irradiance) > least); });
-  return test;
+}
+
+float TestPoints::noise() const {
+  double variance = 0, sum = 0;
+  for (const Point& point : points_) {
+    variance += static_cast<double>(brightness(point.variance));
+    sum += static_cast<double>(brightness(point.irradiance));
+  }
+  const double count = 3 * static_cast<double>(points_.size());
+  return sum > 0 ? static_cast<float>(std::sqrt(variance / count) * count / sum) : 0;
 }
 
 float TestPoints::error(const LightGrid& grid) const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/base/progress.h"
@@ -12,8 +14,9 @@ namespace lightwell {
 struct TestPointOptions {
   size_t surface_points = 500;
   size_t free_points = 0;
-  int rays = 1024;  ///< of a point
-  float near = 1;   ///< cells of the surface cache within which the rays of surface points do not end in it
+  int rays = 1024;  ///< of a point, and as many again, up to 15 times, until their noise is small enough
+  float most_noise = std::numeric_limits<float>::infinity();  ///< see noise()
+  float near = 1;  ///< cells of the surface cache within which the rays of surface points do not end in it
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };
@@ -43,11 +46,14 @@ class TestPoints {
   float mean_error(const LightGrid& grid) const;
   /// By what a grid is chosen: the geometric mean of both.
   float badness(const LightGrid& grid) const { return std::sqrt(mean_error(grid) * error(grid)); }
+  /// The root mean square noise of the gathered light, as a share of the mean irradiance.
+  float noise() const;
   /// Of a few normal offsets, in cells of each level, the one with which the grid errs least: small where nodes stand
   /// well, larger where walls are thinner than a cell.
   float best_offset(LightGrid grid) const;
 
  private:
+  class Estimate;
   struct Point {
     Vec3f position{};
     Vec3f normal{};      // of the surface; in free space that of one that might be there
@@ -60,6 +66,7 @@ class TestPoints {
       variance = (a - b) * (a - b) / 4.0f;
     }
   };
+  static void keep_lit(std::vector<Point>& points);
   std::vector<Point> points_;
 };
 

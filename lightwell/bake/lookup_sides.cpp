@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/bake/lookup_sides.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lightwell/bake/surface_sampler.h"
@@ -19,6 +20,21 @@ using Lookup = std::array<Reach, 8>;
 /// Of a cell: a node so close behind a surface stands on it.
 constexpr float on_surface = 0.15f;
 constexpr float weight_of_backs = 0.25f;
+/// Of a cell: how far lookups are shifted in front of their surfaces.
+constexpr float most_offset = 0.25f;
+
+/// Keeps a facing if it is one of those that weigh most.
+void keep(Facings& facings, const Facing& more) {
+  Facing& least = *std::min_element(facings.begin(), facings.end(),
+                                    [](const Facing& a, const Facing& b) { return a.weight < b.weight; });
+  if (more.weight > least.weight) least = more;
+}
+
+/// Whether a point is of a scene's lowest surface, which nobody sees from below.
+bool is_ground(const SurfacePoint& front, const Box3f& box) {
+  constexpr float flat = 0.7f, low = 0.01f;
+  return front.normal[1] > flat && front.position[1] - box.lo[1] < low * box.size()[1];
+}
 
 }  // namespace
 
@@ -38,11 +54,12 @@ LookupSides::LookupSides(const TraceScene& scene, const Box3f& box, size_t count
     Random random(seed, i);
     const SurfacePoint front = surfaces.sample(random);
     points_.push_back({front.position, front.normal});
-    if (scene.material(front.instance).double_sided) points_.push_back({front.behind, -front.normal, weight_of_backs});
+    if (!scene.material(front.instance).double_sided || is_ground(front, box)) continue;
+    points_.push_back({front.behind, -front.normal, weight_of_backs});
   }
 }
 
-void LookupSides::follow(const GridShape& shape, const BrickTree& tree, float most_offset, int threads) {
+void LookupSides::follow(const GridShape& shape, const BrickTree& tree, int threads) {
   std::vector<Lookup> lookups(points_.size());
   const auto look_up = [&](const Point& point, Random& random) {
     // Whatever stands on a surface looks up the light in front of it, too, and closer to it.
@@ -79,14 +96,24 @@ void LookupSides::follow(const GridShape& shape, const BrickTree& tree, float mo
       lookups[i] = look_up(points_[i], random);
     }
   });
-  balance_.clear();
-  for (const Lookup& lookup : lookups)
-    for (const Reach& reach : lookup) balance_[reach.place] += reach.weight;
+  reached_.clear();
+  for (size_t i = 0; i < lookups.size(); i++) {
+    for (const Reach& reach : lookups[i]) {
+      Reached& reached = reached_[reach.place];
+      reached.balance += reach.weight;
+      keep(reached.facings, {points_[i].normal, std::abs(reach.weight)});
+    }
+  }
 }
 
 float LookupSides::balance(uint64_t place) const {
-  const auto found = balance_.find(place);
-  return found != balance_.end() ? found->second : 0;
+  const auto found = reached_.find(place);
+  return found != reached_.end() ? found->second.balance : 0;
+}
+
+Facings LookupSides::facings(uint64_t place) const {
+  const auto found = reached_.find(place);
+  return found != reached_.end() ? found->second.facings : Facings{};
 }
 
 }  // namespace lightwell

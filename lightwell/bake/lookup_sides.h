@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "lightwell/bake/node_surroundings.h"
 #include "lightwell/light/grid.h"
 #include "lightwell/trace/trace_scene.h"
 
@@ -19,10 +20,12 @@ class LookupSides {
  public:
   /// Takes `count` points of the fronts of what lies in a box, and those of the backs of what has two sides, which
   /// count less: they are seldom what is looked at. The scene must outlive this.
-  LookupSides(const TraceScene& scene, const Box3f& box, size_t count, uint64_t seed);
+  LookupSides(const TraceScene& scene, const Box3f& box, size_t count = 20'000, uint64_t seed = 0x51de);
 
-  /// Follows the points' lookups in a grid of these cells, shifted by 0 to `most_offset` cells.
-  void follow(const GridShape& shape, const BrickTree& tree, float most_offset, int threads);
+  /// Follows the points' lookups in a grid of these cells, shifted by up to a quarter of a cell, as a good grid has it.
+  void follow(const GridShape& shape, const BrickTree& tree, int threads);
+  /// The normals of the points whose lookups reach a node most.
+  Facings facings(uint64_t place) const;
   /// The weight of the lookups that reach a node without a surface between, less that of those that do so through one.
   float balance(uint64_t place) const;
   /// Whether more of the lookups' weight reaches a node through surfaces than without; false where none reaches it.
@@ -36,7 +39,11 @@ class LookupSides {
 
   const TraceScene& scene_;
   std::vector<Point> points_;
-  std::unordered_map<uint64_t, float> balance_;  // weight that reaches a node without a wall, less that through walls
+  struct Reached {
+    float balance = 0;  // weight that reaches a node without a wall, less that through walls
+    Facings facings{};
+  };
+  std::unordered_map<uint64_t, Reached> reached_;
 };
 
 }  // namespace lightwell

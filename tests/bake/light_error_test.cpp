@@ -46,6 +46,22 @@ TEST(TestPoints, TellTheErrorOfAGrid) {
   EXPECT_NEAR(test.error(furnace.grid(1, 0.6f)), 0.4f * std::sqrt(0.5f), 0.03f);
 }
 
+// With few rays noise is larger than the errors that are looked for; a grid's error must not drown in it.
+TEST(TestPoints, TakeRaysUntilTheirNoiseIsSmall) {
+  Furnace furnace;
+  add(furnace.scene, block({{0.9f, 0.6f, 1.4f}}, {{1.1f, 0.8f, 1.6f}}), lambertian(0.5f, 400));
+  const std::unique_ptr<const World> world = world_of(furnace.scene);
+  const SurfaceCache cache =
+      SurfaceCache::build(*world, furnace.middle, {.region = world->surfaces().bounds(), .cell = 0.2f}, furnace.silent)
+          .value();
+  const GatheredLight light({*world, furnace.space, cache, world->surfaces().bounds()}, {});
+  const TestPointOptions few{.surface_points = 100, .rays = 32, .near = 8};
+  TestPointOptions enough = few;
+  enough.most_noise = 0.2f;
+  EXPECT_GT(TestPoints::gather(light, few, furnace.silent).value().noise(), 0.2f);
+  EXPECT_LE(TestPoints::gather(light, enough, furnace.silent).value().noise(), 0.2f);
+}
+
 TEST(TestPoints, AreTheSameForAnyNumberOfThreads) {
   Furnace furnace;
   const LightGrid grid = furnace.grid(1, 0.9f);

@@ -299,8 +299,8 @@ TEST(BakeLight, AdaptiveGridsAgreeWithTheTruth) {
   }
 }
 
-// Under sun and sky, with the ground a sheet above open air: 3.2 % in free space. On surfaces 5.3 %, three quarters of
-// the squares in 10 points of 128 beside columns, which stand in the sun's first bounce.
+// Under sun and sky, with the ground a sheet above open air: 2.3 % in free space. On surfaces 4.1 %, a third of the
+// squares in 2 points of 128 beside columns, which stand in the sun's first bounce.
 TEST(BakeLight, AdaptiveGridsAgreeWithTheTruthOutdoors) {
   const Scene scene = truth_scene("e_courtyard");
   const auto world = world_of(scene);
@@ -309,8 +309,8 @@ TEST(BakeLight, AdaptiveGridsAgreeWithTheTruthOutdoors) {
   const Baked baked = bake(*world, o);
   for (const std::string points : {".free", ".surf"}) {
     const TruthScore score = compare(baked.grid, "e_courtyard" + points + ".indirect_and_sky");
-    EXPECT_LT(score.rms, points == ".surf" ? 0.06 : 0.035) << points;
-    EXPECT_NEAR(score.bias, 0, 0.01) << points;
+    EXPECT_LT(score.rms, points == ".surf" ? 0.05 : 0.03) << points;
+    EXPECT_NEAR(score.bias, 0, points == ".surf" ? 0.02 : 0.01) << points;
     EXPECT_LT(score.rms, 2.5f * baked.statistics.estimated_error);
   }
 }

@@ -23,7 +23,7 @@ class FloorLookups : public testing::Test {
     LookupSides sides(world_->surfaces(), shape_.box, 4000, 3);
     BrickTree tree(shape_.grid.cells());
     for (const Brick& brick : bricks) tree.add(brick);
-    sides.follow(shape_.grid, tree, 0.25f, 2);
+    sides.follow(shape_.grid, tree, 2);
     return sides;
   }
 
@@ -58,6 +58,27 @@ TEST_F(FloorLookups, ReachNodesOnIt) {
   shape_.grid.lo[1] = 0;
   const LookupSides sides = followed(scene_of(floor_of_room(), lambertian(0.5f)));
   for (int x = 0; x < 5; x++) EXPECT_FALSE(sides.across(lattice_place(0, {{x, 0, 2}})));
+}
+
+// Nobody stands below a scene's lowest surface, though it have two sides: only what is above it counts. Lookups from
+// below, shifted away from it, would outweigh those from above that reach a node far below.
+TEST_F(FloorLookups, OfTheGroundAreFromAbove) {
+  Scene scene = scene_of(floor_of_room(), lambertian(0.5f));
+  scene.materials[0].double_sided = true;
+  shape_.grid.lo[1] = -0.9f;
+  EXPECT_FALSE(followed(scene).across(lattice_place(0, {{2, 0, 2}}))) << "a floor above something";
+  shape_.box.lo[1] = 0;
+  EXPECT_TRUE(followed(scene).across(lattice_place(0, {{2, 0, 2}})));
+}
+
+// A node knows which way what looks it up faces; one that nothing reaches has no facings.
+TEST_F(FloorLookups, TellTheNormalsThatReachANode) {
+  const LookupSides sides = followed(scene_of(floor_of_room(), lambertian(0.5f)));
+  for (const Facing& facing : sides.facings(lattice_place(0, {{2, 1, 2}}))) {
+    EXPECT_EQ(facing.normal, (Vec3f{{0, 1, 0}}));
+    EXPECT_GT(facing.weight, 0.25f) << "it is 0.8 cells above the floor, lookups up to a quarter";
+  }
+  for (const Facing& facing : sides.facings(lattice_place(0, {{2, 2, 2}}))) EXPECT_EQ(facing.weight, 0);
 }
 
 TEST_F(FloorLookups, AreNoneWithoutSurfaces) {
