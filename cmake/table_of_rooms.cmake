@@ -4,8 +4,8 @@
 # "arrows" fails when an include runs against this table.
 lightwell_room(base LIBRARIES Threads::Threads lightwell_expected ZLIB::ZLIB BAKER_ONLY parallel_threads.cpp file.cpp fingerprint.cpp)
 lightwell_room(mesh DEPENDS base BAKER_ONLY connected_faces.cpp winding.cpp quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
-lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp
-               BAKER_ONLY image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
+lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp lightwell_stb
+               BAKER_ONLY bmp_tga_file.cpp image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
 lightwell_room(light DEPENDS base BAKER_ONLY stream_encode.cpp lattice_encode.cpp record_encode.cpp)
 lightwell_room(pack DEPENDS base BAKER_ONLY content_hash.cpp reader.cpp writer.cpp)
 lightwell_room(asset DEPENDS pack light mesh texture base)

@@ -9,10 +9,10 @@
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/import_obj.h"
 #include "lightwell/scene/obj_text.h"
+#include "lightwell/scene/plain_images.h"
 #include "lightwell/scene/ply.h"
 #include "lightwell/scene/scene.h"
 #include "lightwell/scene/stl.h"
-#include "lightwell/scene/upright_images.h"
 #include "lightwell/texture/image_format.h"
 
 namespace lightwell {
@@ -81,7 +81,7 @@ Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& 
   file = {};  // the document has its own copy of what it needs
   LW_CHECK(choose_scene(document, options.scene, report));
   reorient(document, options.up, options.unit);
-  make_images_upright(document);
+  make_images_plain(document);
   return scene_from_document(std::move(document), scene_name(path), report);
 }
 

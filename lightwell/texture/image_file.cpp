@@ -42,13 +42,13 @@ Result<void> check_image_size(uint64_t width, uint64_t height) {
 
 Result<Image> read_image_file(Bytes file) {
   const auto format = image_format(file);
-  if (!format) return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG or WebP");
+  if (!format) return read_bmp_or_tga(file);
   switch (*format) {
     case ImageFormat::png: return read_png(file);
     case ImageFormat::jpeg: return read_jpeg(file);
     case ImageFormat::webp: return read_webp(file);
   }
-  return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG or WebP");
+  return read_bmp_or_tga(file);
 }
 
 std::vector<uint8_t> write_preview(const Image& image, int longest_side, bool color) {

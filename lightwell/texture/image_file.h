@@ -17,7 +17,7 @@ constexpr uint64_t max_image_pixels = uint64_t(1) << 26;
 /// Fails when an image of this size is empty or beyond the limits.
 Result<void> check_image_size(uint64_t width, uint64_t height);
 
-/// Decodes a PNG, JPEG or WebP file, recognised by content. Sixteen bits become eight, palettes and bit depths below
+/// Decodes a PNG, JPEG, WebP, BMP or TGA file, recognised by content. Sixteen bits become eight, palettes and bit depths below
 /// eight are expanded, CMYK becomes RGB; channels stay as they are otherwise. Colour profiles and gamma chunks are
 /// ignored, as glTF asks (section 3.8.3). Errors name the format and the reason; any bytes are safe.
 Result<Image> read_image_file(Bytes file);
@@ -26,6 +26,8 @@ Result<Image> read_image_file(Bytes file);
 Result<Image> read_png(Bytes file);
 Result<Image> read_jpeg(Bytes file);
 Result<Image> read_webp(Bytes file);
+/// BMP without compression, TGA with run lengths or without; neither can be in a pack (image_format.h).
+Result<Image> read_bmp_or_tga(Bytes file);
 
 /// A PNG file of an image of one to four channels.
 std::vector<uint8_t> write_png(const Image& image);
