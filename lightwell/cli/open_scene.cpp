@@ -14,11 +14,11 @@
 namespace lightwell {
 namespace {
 
-Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, Report& report) {
+Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, ImageLimit images, Report& report) {
   LW_TRY(pack, OpenedPack::open_file(path));
   LW_TRY(document, unpack_document(pack, level, report));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report,
-                                    pack.identity().origin));
+                                    pack.identity().origin, images));
   return OpenedScene{std::move(scene), std::move(pack)};
 }
 
@@ -55,10 +55,10 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   const std::string& path = options.path;
   const bool pack = is_pack_file(path);
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
-  auto opened = pack ? open_pack(path, level, report) : open_other(path, options.import, report);
+  auto opened = pack ? open_pack(path, level, options.import.images, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
   if (!options.environment.empty()) {
-    LW_TRY(surroundings, read_environment(options.environment));
+    LW_TRY(surroundings, read_environment(options.environment, options.import.images));
     if (!surroundings.map) note_sky(opened->scene, surroundings.radiance);
     if (const auto sun = take_sun(surroundings)) add_sun(opened->scene, *sun);
     opened->scene.environment = std::move(surroundings);

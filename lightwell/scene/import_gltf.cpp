@@ -116,10 +116,10 @@ class Importer {
     scene_.name = std::move(name);
   }
 
-  Result<Scene> import(const std::optional<Vec3d>& origin) {
+  Result<Scene> import(const std::optional<Vec3d>& origin, ImageLimit limit) {
     const Json& json = scene_.document.json;
     scene_.materials = read_materials(json, report_);
-    scene_.images = read_images(scene_.document, report_);
+    scene_.images = read_images(scene_.document, limit, report_);
     joint_nodes_ = joint_nodes(json);
     LW_CHECK(walk_nodes());
     LW_CHECK(place_meshes());
@@ -366,8 +366,8 @@ class Importer {
 }  // namespace
 
 Result<Scene> scene_from_document(Document document, std::string name, Report& report,
-                                  const std::optional<Vec3d>& origin) {
-  return Importer(std::move(document), std::move(name), report).import(origin);
+                                  const std::optional<Vec3d>& origin, ImageLimit limit) {
+  return Importer(std::move(document), std::move(name), report).import(origin, limit);
 }
 
 }  // namespace lightwell

@@ -151,15 +151,15 @@ class MaterialReader {
   bool clamped_ = false;
 };
 
-Result<Image> decode_image(const Document& document, int index) {
+Result<Image> decode_image(const Document& document, int index, ImageLimit limit) {
   LW_TRY(bytes, read_image(document, index));
   const std::string name = element_name("images", static_cast<size_t>(index));
   constexpr std::string_view ktx2 = "\xabKTX 20";
   if (bytes.size() > ktx2.size() && std::equal(ktx2.begin(), ktx2.end(), bytes.begin(),
                                                [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; }))
     return fail(ErrorKind::unsupported, name, "KHR_texture_basisu is not supported");
-  auto image = read_image_file(bytes);
-  if (!image) return fail(in_element(image.error(), name));
+  auto image = read_image_file(bytes, limit);
+  if (!image) return fail(in_element(naming_image_option(image.error()), name));
   return image;
 }
 
@@ -197,11 +197,11 @@ std::vector<Material> read_materials(const Json& document, Report& report) {
   return materials;
 }
 
-std::vector<Image> read_images(const Document& document, Report& report) {
+std::vector<Image> read_images(const Document& document, ImageLimit limit, Report& report) {
   std::vector<Image> images;
   uint64_t pixels = 0;
   for (size_t i = 0; i < member(document.json, "images").size(); i++) {
-    auto image = decode_image(document, static_cast<int>(i));
+    auto image = decode_image(document, static_cast<int>(i), limit);
     if (image) pixels += uint64_t(static_cast<uint32_t>(image->width)) * static_cast<uint32_t>(image->height);
     if (image && pixels > max_pixels)
       image = fail(ErrorKind::limit, element_name("images", i), "too many pixels in all images together");

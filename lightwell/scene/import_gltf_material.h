@@ -17,6 +17,6 @@ int image_of(const Json& texture);
 
 /// The images of a document in its order, decoded. An image that cannot be read becomes a white pixel, and `report`
 /// gets a warning.
-std::vector<Image> read_images(const Document& document, Report& report);
+std::vector<Image> read_images(const Document& document, ImageLimit limit, Report& report);
 
 }  // namespace lightwell

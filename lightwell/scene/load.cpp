@@ -61,7 +61,7 @@ std::string scene_name(std::filesystem::path path) {
   return path.stem().string();
 }
 
-Result<Document> document_of(Bytes file, const std::filesystem::path& path, Report& report) {
+Result<Document> document_of(Bytes file, const std::filesystem::path& path, ImageLimit limit, Report& report) {
   const std::filesystem::path folder = path.parent_path();
   if (file.empty()) return fail("", "is empty");
   if (is_ply(file)) return ply_document(file, folder, scene_name(path), report);
@@ -70,19 +70,19 @@ Result<Document> document_of(Bytes file, const std::filesystem::path& path, Repo
   if (is_draco(file)) return draco_document(file);
   if (is_stl(file)) return stl_document(file, report);
   if (is_gltf(file)) return read_document(file, folder, report);
-  if (is_obj(file)) return obj_document(file, folder, report);
+  if (is_obj(file)) return obj_document(file, folder, report, limit);
   return fail(ErrorKind::unsupported, "", "is neither glTF, OBJ, PLY, STL nor Draco");
 }
 
 Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& options, Report& report) {
   constexpr bool inflate = true;
   LW_TRY(file, read_file(path, inflate));
-  LW_TRY(document, document_of(file, path, report));
+  LW_TRY(document, document_of(file, path, options.images, report));
   file = {};  // the document has its own copy of what it needs
   LW_CHECK(choose_scene(document, options.scene, report));
   reorient(document, options.up, options.unit);
-  make_images_plain(document);
-  return scene_from_document(std::move(document), scene_name(path), report);
+  make_images_plain(document, options.images);
+  return scene_from_document(std::move(document), scene_name(path), report, {}, options.images);
 }
 
 }  // namespace

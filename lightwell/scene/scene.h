@@ -122,6 +122,7 @@ struct ImportOptions {
   float unit = 1;          ///< length of the file's unit in metres
   uint64_t seed = 1;       ///< of built-in scenes
   std::string scene = {};  ///< name or number of the scene in a glTF that is shown; empty: its default one
+  ImageLimit images = {};  ///< of each
 };
 
 /// Reads a scene: a glTF 2.0 or GLB, OBJ or PLY file, each possibly gzipped, recognised by content; or a built-in scene

@@ -104,7 +104,7 @@ Result<Image> read_checked(Bytes file, const char* format) {
 
 }  // namespace
 
-Result<Image> read_bmp_or_tga(Bytes file) {
+Result<Image> read_bmp_or_tga(Bytes file, ImageLimit limit) {
   constexpr size_t bytes_of_os2 = 12;  // a header whose palette the library cuts
   const bool bmp = is_bmp(file);
   const BmpHeader header = bmp_header(ByteReader(file));
@@ -115,7 +115,7 @@ Result<Image> read_bmp_or_tga(Bytes file) {
   if (!known) return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG, WebP, BMP or TGA");
   const auto columns = static_cast<size_t>(width);
   const auto rows = static_cast<size_t>(std::abs(int64_t(height)));  // of a BMP, negative when the first is at the top
-  LW_CHECK(check_image_size(columns, rows));
+  LW_CHECK(check_image_size(columns, rows, limit));
   if (!(bmp ? has_bmp_rows(file, header, columns, rows) : has_tga_pixels(file)))
     return fail(bmp ? "BMP" : "TGA", "the file is too short for its size");
   return bmp ? read_checked(with_whole_palette(file, header), "BMP") : read_checked(file, "TGA");

@@ -34,6 +34,7 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"bake box-small --unit inf" + out, "--unit: inf: is not a number"},
            {"bake box-small --unit 0" + out, "--unit: 0: is not a number"},
            {"bake box-small --unit 1m" + out, "--unit: 1m: is not a number"},
+           {"bake box-small --max-image-megapixels 1000" + out, "1000: is not a whole number from 1 to 512"},
            {"bake box-small --up x" + out, "--up: x: is not y or z"},
            {"bake box-small --position-error nan" + out, "--position-error: nan"},
            {"bake box-small --position-error -1" + out, "--position-error: -1"},

@@ -287,6 +287,22 @@ TEST(ImageFile, RefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(check_image_size(16384, 4097));
 }
 
+TEST(ImageFile, ItsLimitCanBeSet) {
+  constexpr ImageLimit raised{uint64_t(1) << 28}, lowered{64};
+  EXPECT_TRUE(check_image_size(16384, 16384, raised));
+  EXPECT_FALSE(check_image_size(16385, 16384, raised));
+  EXPECT_TRUE(check_image_size(20000, 1, raised));
+  const Image wide = constant(17, 2, {9}), square = constant(9, 8, {9});
+  for (const Image& image : {wide, square})
+    for (const auto& file : {write_png(image), write_jpeg(image, 90)}) {
+      const auto read = read_image_file(file, lowered);
+      ASSERT_FALSE(read);
+      EXPECT_EQ(read.error().kind, ErrorKind::limit);
+      EXPECT_NE(naming_image_option(read.error()).message().find("--max-image-megapixels"), std::string::npos);
+    }
+  EXPECT_TRUE(read_image_file(write_png(constant(16, 4, {9})), lowered));
+}
+
 TEST(ImageFile, SurvivesFlippedBits) {
   Random random(5, 0);
   for (const auto& file : {write_png(noise(12, 12, 3)), write_jpeg(noise(12, 12, 3), 70),
