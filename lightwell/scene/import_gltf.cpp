@@ -347,7 +347,7 @@ class Importer {
   void read_lamps_and_cameras() {
     const Json& json = scene_.document.json;
     for (const auto& [node, to_scene] : lamps_and_cameras_) {
-      if (auto lamp = read_lamp(json, node, to_scene)) scene_.lamps.push_back(std::move(*lamp));
+      if (auto lamp = read_lamp(json, node, to_scene, report_)) scene_.lamps.push_back(std::move(*lamp));
       if (auto camera = read_camera(json, node, to_scene, report_)) scene_.cameras.push_back(std::move(*camera));
     }
   }

@@ -139,6 +139,10 @@ TEST_F(Commands, AFullDeviceIsAnError) {
   const Outcome outcome = run("export " + pack + " -o /dev/full");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(outcome.err, "lightwell: /dev/full: No space left on device\n");
+  const Outcome baked =
+      run_in_shell(LIGHTWELL_PROGRAM " bake furnace --grid 2 --photons 5k --quiet -o - >/dev/full 2>" + path("stderr"));
+  EXPECT_EQ(baked.status, 1);
+  EXPECT_EQ(baked.err, "lightwell: stdout: No space left on device\n") << "it is not the scene's fault";
   const int status = std::system((LIGHTWELL_PROGRAM " info " + pack + " >/dev/full 2>&1").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1) << "figures that are lost are no success";
 }

@@ -425,6 +425,15 @@ TEST(ImportGltf, LampsAreRead) {
   EXPECT_EQ(lamps[2].outer_cone, 0.5f);
 }
 
+TEST(ImportGltf, LampsOfUnknownTypeAreLeftOut) {
+  Document document = scene_document(R"([{"extensions": {"KHR_lights_punctual": {"light": 0}}}])", {0});
+  document.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "area", "intensity": 5}])");
+  Report report;
+  EXPECT_TRUE(import(document, report).lamps.empty());
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"lights[0]: type \"area\" is none of point, spot and directional; left out"});
+}
+
 TEST(ImportGltf, CamerasAndTheSkyAreRead) {
   Document document =
       scene_document(R"([{"camera": 0, "translation": [1, 2, 3], "scale": [2, 2, 2]}, {"camera": 1}])", {0, 1});
