@@ -80,6 +80,7 @@ Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& 
   LW_TRY(document, document_of(file, path, options.images, report));
   file = {};  // the document has its own copy of what it needs
   LW_CHECK(choose_scene(document, options.scene, report));
+  name_variants(document.json, report);
   reorient(document, options.up, options.unit);
   make_images_plain(document, options.images);
   return scene_from_document(std::move(document), scene_name(path), report, {}, options.images);

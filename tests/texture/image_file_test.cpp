@@ -2,7 +2,6 @@
 #include "lightwell/texture/image_file.h"
 
 #include <gtest/gtest.h>
-#include <webp/encode.h>
 #include <zlib.h>
 
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include <jpeglib.h>
 
 #include "lightwell/base/random.h"
+#include "tests/texture/webp_files.h"
 
 namespace lightwell {
 namespace {
@@ -84,15 +84,6 @@ std::vector<uint8_t> cmyk_jpeg(const Image& image, bool adobe) {
   std::vector<uint8_t> file(bytes, bytes + size);
   jpeg_destroy_compress(&codec);
   std::free(bytes);
-  return file;
-}
-
-std::vector<uint8_t> lossless_webp(const Image& image) {
-  uint8_t* bytes = nullptr;
-  const auto encode = image.channels == 4 ? WebPEncodeLosslessRGBA : WebPEncodeLosslessRGB;
-  const size_t size = encode(image.pixels.data(), image.width, image.height, image.width * image.channels, &bytes);
-  std::vector<uint8_t> file(bytes, bytes + size);
-  WebPFree(bytes);
   return file;
 }
 
