@@ -77,6 +77,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
       .add_option("--scene", options.import.scene,
                   "Name or number of the file's scene that is shown (default: its own choice)")
       ->type_name("NAME");
+  add_choice<LampUnits>(command, "--lamp-units", options.import.lamp_units,
+                        {{"auto", LampUnits::automatic},
+                         {"radiometric", LampUnits::radiometric},
+                         {"photometric", LampUnits::photometric}},
+                        "What lamps of KHR_lights_punctual are in: watts, as emission is, or lumens; auto: lumens in "
+                        "files of Blender");
   add_image_limit_option(command, options.import.images);
   add_whole(command, "--seed", options.import.seed, seed_range, "Seed of everything random");
   add_whole(command, "--threads", options.threads, {0, 1024}, "Threads, 0 for all processors");

@@ -32,7 +32,8 @@ struct SceneOptions {
   }
 };
 
-/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --max-image-megapixels,
+/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --lamp-units,
+/// --max-image-megapixels,
 /// --seed and --threads. `help` says what the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 

@@ -41,10 +41,12 @@ void note_sky(Scene& scene, const Vec3f& radiance) {
   object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
 }
 
-// Refuses --up, --unit and --scene for packs and built-in scenes, which have their own.
+// Refuses --up, --unit, --lamp-units and --scene for packs and built-in scenes, which have their own.
 Result<void> refuse_conventions(const std::string& path, const ImportOptions& asked) {
   const ImportOptions own;
   if (!asked.scene.empty()) return fail({path, "", "holds one scene; --scene is for files of other programs"});
+  if (asked.lamp_units == LampUnits::photometric)
+    return fail({path, "", "has lamps in watts; --lamp-units is for files of other programs"});
   if (asked.up == own.up && asked.unit == own.unit) return {};
   return fail({path, "", "is in metres with y up; --up and --unit are for files of other programs"});
 }

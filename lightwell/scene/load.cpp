@@ -8,6 +8,7 @@
 #include "lightwell/scene/import_draco.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/import_obj.h"
+#include "lightwell/scene/lamp_units.h"
 #include "lightwell/scene/obj_text.h"
 #include "lightwell/scene/plain_images.h"
 #include "lightwell/scene/ply.h"
@@ -81,6 +82,7 @@ Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& 
   file = {};  // the document has its own copy of what it needs
   LW_CHECK(choose_scene(document, options.scene, report));
   name_variants(document.json, report);
+  make_lamps_radiometric(document, options.lamp_units, report);
   reorient(document, options.up, options.unit);
   make_images_plain(document, options.images);
   return scene_from_document(std::move(document), scene_name(path), report, {}, options.images);
