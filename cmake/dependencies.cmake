@@ -18,6 +18,10 @@ pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_path(XXHASH_INCLUDE xxhash.h REQUIRED)
 find_path(STB_INCLUDE stb_image.h PATH_SUFFIXES stb REQUIRED)
 
+if(LIGHTWELL_ASSIMP)
+  find_package(assimp REQUIRED)
+endif()
+
 add_library(lightwell_expected INTERFACE)
 target_link_libraries(lightwell_expected INTERFACE tl::expected)
 add_library(lightwell_webp INTERFACE)

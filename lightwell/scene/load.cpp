@@ -5,6 +5,7 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/scene/builtin.h"
+#include "lightwell/scene/import_assimp.h"
 #include "lightwell/scene/import_draco.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/import_obj.h"
@@ -62,17 +63,29 @@ std::string scene_name(std::filesystem::path path) {
   return path.stem().string();
 }
 
+/// What a file of no format of ours becomes: a document where assimp was built in, else the refusal.
+Result<Document> document_of_other([[maybe_unused]] Bytes file, [[maybe_unused]] const std::filesystem::path& path,
+                                   const std::string& refusal, [[maybe_unused]] Report& report) {
+#ifdef LIGHTWELL_ASSIMP
+  auto document = assimp_document(file, path, report);
+  if (document) return document;
+  return fail(ErrorKind::unsupported, "", refusal + " (" + document.error().message() + ")");
+#else
+  return fail(ErrorKind::unsupported, "", refusal);
+#endif
+}
+
 Result<Document> document_of(Bytes file, const std::filesystem::path& path, ImageLimit limit, Report& report) {
   const std::filesystem::path folder = path.parent_path();
   if (file.empty()) return fail("", "is empty");
   if (is_ply(file)) return ply_document(file, folder, scene_name(path), report);
   if (const auto format = unsupported_format(file))
-    return fail(ErrorKind::unsupported, "", "cannot be read: it is " + *format);
+    return document_of_other(file, path, "cannot be read: it is " + *format, report);
   if (is_draco(file)) return draco_document(file);
   if (is_stl(file)) return stl_document(file, report);
   if (is_gltf(file)) return read_document(file, folder, report);
   if (is_obj(file)) return obj_document(file, folder, report, limit);
-  return fail(ErrorKind::unsupported, "", "is neither glTF, OBJ, PLY, STL nor Draco");
+  return document_of_other(file, path, "is neither glTF, OBJ, PLY, STL nor Draco", report);
 }
 
 Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& options, Report& report) {
