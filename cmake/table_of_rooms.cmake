@@ -4,13 +4,19 @@
 # "arrows" fails when an include runs against this table.
 lightwell_room(base LIBRARIES Threads::Threads lightwell_expected ZLIB::ZLIB BAKER_ONLY parallel_threads.cpp file.cpp fingerprint.cpp)
 lightwell_room(mesh DEPENDS base BAKER_ONLY connected_faces.cpp winding.cpp quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
-lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp
-               BAKER_ONLY image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
+lightwell_room(texture DEPENDS base LIBRARIES PNG::PNG JPEG::JPEG lightwell_webp lightwell_stb
+               BAKER_ONLY bmp_tga_file.cpp image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp)
 lightwell_room(light DEPENDS base BAKER_ONLY stream_encode.cpp lattice_encode.cpp record_encode.cpp)
 lightwell_room(pack DEPENDS base BAKER_ONLY content_hash.cpp reader.cpp writer.cpp)
 lightwell_room(asset DEPENDS pack light mesh texture base)
 lightwell_room(gltf DEPENDS mesh texture base LIBRARIES nlohmann_json::nlohmann_json draco::draco meshoptimizer::meshoptimizer)
 lightwell_room(scene DEPENDS gltf mesh texture base LIBRARIES tinyobjloader::tinyobjloader)
+if(LIGHTWELL_ASSIMP)
+  target_link_libraries(lightwell_scene PUBLIC assimp::assimp)
+  target_compile_definitions(lightwell_scene PUBLIC LIGHTWELL_ASSIMP)
+else()
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/lightwell/scene/import_assimp.cpp PROPERTIES HEADER_FILE_ONLY ON)
+endif()
 lightwell_room(trace DEPENDS scene mesh texture base LIBRARIES embree)
 lightwell_room(render DEPENDS trace light scene texture base LIBRARIES tinyexr::tinyexr)
 lightwell_room(bake DEPENDS trace light scene mesh base)

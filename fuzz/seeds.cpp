@@ -129,6 +129,11 @@ std::vector<uint8_t> webp(const Image& image) {
   return file;
 }
 
+/// A picture of one pixel in a colour of a palette, and one of a run of two.
+constexpr std::array<uint8_t, 66> small_bmp = {'B', 'M', 66, 0, 0, 0, 0, 0, 0, 0, 62, 0, 0, 0, 40,
+                                               0,   0,   0,  1, 0, 0, 0, 1, 0, 0, 0,  1, 0, 8, 0};
+constexpr std::array<uint8_t, 22> small_tga = {0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0, 0x81, 3, 2, 1};
+
 void plant_images(Seeds& seeds) {
   Random random(1, 0);
   for (const int channels : {1, 3, 4}) {
@@ -139,6 +144,8 @@ void plant_images(Seeds& seeds) {
     if (channels == 4) seeds.plant("texture", webp(image));
   }
   seeds.plant("texture", as_bytes(radiance_text));
+  seeds.plant("texture", small_bmp);
+  seeds.plant("texture", small_tga);
 }
 
 }  // namespace

@@ -61,6 +61,7 @@ take() { # FILE MUST_READ
   rm -f "$pack"
   within $bake_seconds "$program" bake "$1" -o "$pack" "${sky[@]}" --photons 100k --grid 16 --quiet --json
   status=$?
+  grep -q -e '--up z' "$work/out" && complain "$1 has its y axis up" "$work/out"
   if [ "$2" = no ] && refused_in_one_line $status; then
     echo "refused  $(reason | cut -c1-170)"
     return

@@ -2,6 +2,8 @@
 #include "lightwell/base/file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -89,22 +91,50 @@ Result<bool> is_replaced(const fs::path& path) {
   return kind == fs::file_type::regular || kind == fs::file_type::not_found;
 }
 
+constexpr std::string_view temporary_ending = ".part";
+constexpr size_t temporary_digits = 16;
+
+// Whether `name` is one that a TemporaryFile beside the file `beside` has.
+bool is_temporary(std::string_view name, std::string_view beside) {
+  if (name.size() != beside.size() + 1 + temporary_digits + temporary_ending.size()) return false;
+  const std::string_view digits = name.substr(beside.size() + 1, temporary_digits);
+  return name.starts_with(beside) && name[beside.size()] == '.' && name.ends_with(temporary_ending) &&
+         digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+// Locks a file for this process alone, until it is closed or the process ends. False when another one has it.
+bool lock(int descriptor) { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; }
+
+// Removes the temporary files beside a file that a killed process has left: those that nobody has locked.
+void remove_abandoned(const fs::path& beside) {
+  std::error_code ignored;
+  const fs::path folder = beside.parent_path();
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+    if (!is_temporary(entry.path().filename().string(), beside.filename().string())) continue;
+    const int descriptor = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) continue;
+    if (lock(descriptor)) fs::remove(entry.path(), ignored);
+    ::close(descriptor);
+  }
+}
+
 // A temporary file beside another one, with an unpredictable name, so that nobody can have planted a link there.
-// Removed on destruction unless it has replaced the other file.
+// Removed on destruction unless it has replaced the other file. Locked while it is there.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& beside) {
     constexpr int attempts = 8;  // a name is taken once in 2^64
+    remove_abandoned(beside);
     std::random_device random;
     for (int i = 0; i < attempts; i++) {
-      char digits[17];
+      char digits[temporary_digits + 1];
       std::snprintf(digits, sizeof digits, "%08x%08x", random(), random());
-      path_ = beside.string() + "." + digits + ".part";
+      path_ = beside.string() + "." + digits + std::string(temporary_ending);
       const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
       made_ = descriptor >= 0;
-      if (made_) file_.reset(::fdopen(descriptor, "wb"));
       failure_ = errno;
-      if (made_ || failure_ != EEXIST) break;
+      if (made_) file_.reset(::fdopen(descriptor, "wb"));
+      if (made_ ? keep(descriptor) : failure_ != EEXIST) break;
     }
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -129,6 +159,15 @@ class TemporaryFile {
   }
 
  private:
+  // Locks the file, where files can be locked. False when another process took it for an abandoned one before that.
+  bool keep(int descriptor) {
+    struct stat status {};
+    const bool taken = !lock(descriptor) && errno == EWOULDBLOCK;
+    made_ = !taken && (::fstat(descriptor, &status) != 0 || status.st_nlink > 0);
+    if (!made_) file_.reset();
+    return made_;
+  }
+
   fs::path path_;
   File file_;
   int failure_ = 0;
@@ -175,7 +214,11 @@ Result<void> write_file(const std::filesystem::path& path, Bytes bytes) {
 
 Result<void> write_file(const std::filesystem::path& path,
                         const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
-  if (path == "-") return write_all(stdout, fill);
+  if (path == "-") {
+    auto written = write_all(stdout, fill);
+    if (!written) return fail(in_file(written.error(), "stdout"));
+    return written;
+  }
   LW_TRY(replaced, is_replaced(path));
   Result<void> written;
   if (replaced) {

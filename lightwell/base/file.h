@@ -18,8 +18,9 @@ namespace lightwell {
 Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool inflate = false,
                                        size_t limit = size_t(4) << 30);
 
-/// Writes a file completely or not at all: to a temporary file in the same folder, which is then renamed over it. A
-/// symbolic link stays and its target is replaced; a device or a pipe is written to directly. "-" is stdout.
+/// Writes a file completely or not at all: to a temporary file in the same folder, which is then renamed over it. What
+/// a killed process has left of such a file is removed. A symbolic link stays and its target is replaced; a device or a
+/// pipe is written to directly. "-" is stdout.
 Result<void> write_file(const std::filesystem::path& path, Bytes bytes);
 
 /// The same for content made piece by piece: `fill` gets a function that appends bytes and returns whether that

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lightwell/base/file.h"
+#include "lightwell/texture/image_file.h"
 #include "lightwell/texture/radiance_hdr.h"
 
 namespace lightwell {
@@ -41,6 +42,17 @@ void add_environment_option(CLI::App& command, std::string& environment) {
   add_text(command, "--environment", "R,G,B|FILE", take, "Light from all around: radiance, or a Radiance .hdr file");
 }
 
+void add_image_limit_option(CLI::App& command, ImageLimit& limit) {
+  constexpr int shift = 20;
+  const auto take = [&limit](const std::string& text) -> Result<void> {
+    LW_TRY(million, parse_whole(text, {1, static_cast<double>(highest_image_limit.pixels >> shift)}));
+    limit.pixels = static_cast<uint64_t>(million) << shift;
+    return {};
+  };
+  add_text(command, "--max-image-megapixels", "N", take, "Millions of pixels that an image may have, 1 to 512")
+      ->default_str(std::to_string(limit.pixels >> shift));
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help) {
@@ -65,6 +77,13 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
       .add_option("--scene", options.import.scene,
                   "Name or number of the file's scene that is shown (default: its own choice)")
       ->type_name("NAME");
+  add_choice<LampUnits>(command, "--lamp-units", options.import.lamp_units,
+                        {{"auto", LampUnits::automatic},
+                         {"radiometric", LampUnits::radiometric},
+                         {"photometric", LampUnits::photometric}},
+                        "What lamps of KHR_lights_punctual are in: watts, as emission is, or lumens; auto: lumens in "
+                        "files of Blender");
+  add_image_limit_option(command, options.import.images);
   add_whole(command, "--seed", options.import.seed, seed_range, "Seed of everything random");
   add_whole(command, "--threads", options.threads, {0, 1024}, "Threads, 0 for all processors");
 }
@@ -101,7 +120,7 @@ Result<Vec3f> parse_color(const std::string& text) {
   return color;
 }
 
-Result<Environment> read_environment(const std::string& argument) {
+Result<Environment> read_environment(const std::string& argument, ImageLimit limit) {
   Environment environment;
   if (auto color = parse_color(argument)) {
     environment.radiance = *color;
@@ -109,8 +128,8 @@ Result<Environment> read_environment(const std::string& argument) {
   }
   auto bytes = read_file(argument, true);
   if (!bytes) return fail(bytes.error());
-  auto map = read_radiance_hdr(*bytes);
-  if (!map) return fail(in_file(map.error(), argument));
+  auto map = read_radiance_hdr(*bytes, limit);
+  if (!map) return fail(in_file(naming_image_option(map.error()), argument));
   environment.radiance = Vec3f::filled(1);
   environment.map = std::make_shared<RadianceImage>(std::move(*map));
   return environment;

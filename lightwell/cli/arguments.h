@@ -32,8 +32,9 @@ struct SceneOptions {
   }
 };
 
-/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --seed and --threads. `help`
-/// says what the scene may be.
+/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --lamp-units,
+/// --max-image-megapixels,
+/// --seed and --threads. `help` says what the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 
 /// Adds --level, the share of a pack's faces, or --fill, how missing nodes of its light grid are filled.
@@ -46,6 +47,6 @@ void add_light_level_options(CLI::App& command, LightLevel& level);
 Result<Vec3f> parse_color(const std::string& text);
 
 /// Reads the value of --environment: "R,G,B", or the name of a Radiance .hdr file.
-Result<Environment> read_environment(const std::string& argument);
+Result<Environment> read_environment(const std::string& argument, ImageLimit limit);
 
 }  // namespace lightwell

@@ -12,6 +12,7 @@
 #include "lightwell/packing/pack_scene.h"
 #include "lightwell/render/exposure.h"
 #include "lightwell/scene/camera.h"
+#include "lightwell/scene/up_axis.h"
 
 namespace lightwell {
 namespace {
@@ -68,12 +69,18 @@ void advise_on_unit(const Box3f& focus, Report& report) {
                 " m long: if the file's unit is the millimetre, --unit 0.001 says so");
 }
 
+void advise_on_conventions(const ImportOptions& asked, const World& world, Report& report) {
+  if (asked.unit == 1) advise_on_unit(world.surfaces().focus(), report);
+  if (asked.up == 'y' && seems_z_up(world.scene()))
+    report.warn("the scene seems to lie on its side: if the file's z axis points up, --up z says so");
+}
+
 Result<void> import_scene(const Options& options, Progress& progress, Bake& bake) {
   LW_TRY(opened, open_scene(options.scene, bake.report));
   bake.scene = std::move(opened.scene);
   LW_TRY(world, world_facing_light(bake.scene, options.scene.threads, progress, bake.report));
   bake.world = std::move(world);
-  if (!opened.pack && options.scene.import.unit == 1) advise_on_unit(bake.world->surfaces().focus(), bake.report);
+  if (!opened.pack) advise_on_conventions(options.scene.import, *bake.world, bake.report);
   return {};
 }
 

@@ -43,7 +43,7 @@ Result<Outcome> write(const Options& options, Report& report) {
   LW_CHECK(refuse_builtin_scene(options.pack));
   LW_TRY(pack, OpenedPack::open_file(options.pack));
   LW_TRY(document, unpack_document(pack, options.level, report));
-  LW_TRY(scene, scene_from_document(document, "", report, pack.identity().origin));
+  LW_TRY(scene, scene_from_document(document, "", report, pack.identity().origin, highest_image_limit));
   Outcome outcome;
   for (const Primitive& primitive : scene.primitives) {
     outcome.vertices += primitive.mesh.positions.size();

@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   }
   if (!chosen) return refuse(program, "a command is missing");
   const int status = run(chosen, console);
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return console.fail({"stdout", "", "cannot be written"});
+  if (status == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout) != 0))
+    return console.fail({"stdout", "", "cannot be written"});
   return status;
 }

@@ -14,11 +14,11 @@
 namespace lightwell {
 namespace {
 
-Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, Report& report) {
+Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, ImageLimit images, Report& report) {
   LW_TRY(pack, OpenedPack::open_file(path));
   LW_TRY(document, unpack_document(pack, level, report));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report,
-                                    pack.identity().origin));
+                                    pack.identity().origin, images));
   return OpenedScene{std::move(scene), std::move(pack)};
 }
 
@@ -41,10 +41,12 @@ void note_sky(Scene& scene, const Vec3f& radiance) {
   object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
 }
 
-// Refuses --up, --unit and --scene for packs and built-in scenes, which have their own.
+// Refuses --up, --unit, --lamp-units and --scene for packs and built-in scenes, which have their own.
 Result<void> refuse_conventions(const std::string& path, const ImportOptions& asked) {
   const ImportOptions own;
   if (!asked.scene.empty()) return fail({path, "", "holds one scene; --scene is for files of other programs"});
+  if (asked.lamp_units == LampUnits::photometric)
+    return fail({path, "", "has lamps in watts; --lamp-units is for files of other programs"});
   if (asked.up == own.up && asked.unit == own.unit) return {};
   return fail({path, "", "is in metres with y up; --up and --unit are for files of other programs"});
 }
@@ -55,10 +57,10 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   const std::string& path = options.path;
   const bool pack = is_pack_file(path);
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
-  auto opened = pack ? open_pack(path, level, report) : open_other(path, options.import, report);
+  auto opened = pack ? open_pack(path, level, options.import.images, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
   if (!options.environment.empty()) {
-    LW_TRY(surroundings, read_environment(options.environment));
+    LW_TRY(surroundings, read_environment(options.environment, options.import.images));
     if (!surroundings.map) note_sky(opened->scene, surroundings.radiance);
     if (const auto sun = take_sun(surroundings)) add_sun(opened->scene, *sun);
     opened->scene.environment = std::move(surroundings);

@@ -77,6 +77,9 @@ class DocumentBuilder {
 /// all references that references.h knows.
 void drop_unused(Document& document);
 
+/// Removes the images that no texture refers to, and renumbers the others. Their data goes with drop_unused.
+void drop_unused_images(Document& document);
+
 /// Merges the buffer views of mesh arrays into one for each role and element size, since a view takes as much JSON as
 /// an array. The old views stay, unused, until single_buffer drops them.
 void share_buffer_views(Document& document);

@@ -53,4 +53,6 @@ void drop_unused(Document& document) {
   if (buffers.size() == document.buffers.size()) keep_numbered(document.buffers, buffers);
 }
 
+void drop_unused_images(Document& document) { drop_unused_elements(document.json, "images"); }
+
 }  // namespace lightwell

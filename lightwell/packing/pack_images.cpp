@@ -47,6 +47,14 @@ void use_plain_sources(Document& document) {
   for (const char* name : other_formats) forget_extension(document.json, name);
 }
 
+// Marks the images that textures refer to.
+std::vector<bool> used_images(const Document& document) {
+  std::vector<bool> used(member(document.json, "images").size(), false);
+  for (const Json& texture : member(document.json, "textures"))
+    if (const auto source = static_cast<size_t>(index_of(texture, "source")); source < used.size()) used[source] = true;
+  return used;
+}
+
 // The two parts of an image: the file in the opening, and the file to stream, if that is worthwhile.
 struct Shrunk {
   std::vector<uint8_t> opening;
@@ -81,8 +89,10 @@ std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document)
   if (!document.json.contains("images")) return streamed;
   if (document.json.contains("textures")) use_plain_sources(document);
   const std::vector<bool> color = color_images(scene);
-  const int side = preview_side(scene.images.size());
+  const std::vector<bool> used = used_images(document);
+  const int side = preview_side(static_cast<size_t>(std::count(used.begin(), used.end(), true)));
   for (size_t i = 0; i < scene.images.size(); i++) {
+    if (!used[i]) continue;
     Shrunk shrunk = shrink(scene, static_cast<int>(i), color[i], side);
     if (shrunk.streamed) streamed.push_back(std::move(*shrunk.streamed));
     const int view = DocumentBuilder(document).buffer_view(shrunk.opening);

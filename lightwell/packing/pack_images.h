@@ -13,8 +13,8 @@ struct StreamedImage {
   std::vector<uint8_t> file;
 };
 
-/// Replaces the document's images by small previews and returns the files that are worth streaming. Afterwards no
-/// texture needs an extension to find its image: `source` names a PNG or JPEG.
+/// Replaces the images that textures show by small previews and returns the files that are worth streaming. Afterwards
+/// no texture needs an extension to find its image: `source` names a PNG or JPEG. Other images stay as they are.
 std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document);
 
 }  // namespace lightwell

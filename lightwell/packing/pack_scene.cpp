@@ -171,6 +171,7 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   PackLight stated = light;
   stated.lamps = lamps_of_pack(light.lamps, scene, content.meshes);
   add_extensions(document, scene, stated, content);
+  drop_unused_images(document);
   share_buffer_views(document);
   document = single_buffer(std::move(document), report);
 

@@ -11,7 +11,7 @@ namespace {
 Result<Scene> scene_at(const OpenedPack& pack, const MeshLevel& level) {
   Report report;
   LW_TRY(document, unpack_document(pack, level, report));
-  return scene_from_document(std::move(document), "", report, pack.identity().origin);
+  return scene_from_document(std::move(document), "", report, pack.identity().origin, highest_image_limit);
 }
 
 // Whether a mesh lies in the bounds of the input, apart from rounding to the lattice (`step`).

@@ -19,11 +19,11 @@ uint8_t sample(const Image& image, int x, int y, const Image& in_size_of, int ch
 
 }  // namespace
 
-Result<std::vector<uint8_t>> cut_out(Bytes color, Bytes mask) {
-  LW_TRY(opacity, read_image_file(mask));
+Result<std::vector<uint8_t>> cut_out(Bytes color, Bytes mask, ImageLimit limit) {
+  LW_TRY(opacity, read_image_file(mask, limit));
   Image colors{1, 1, 1, {255}};
   if (!color.empty()) {
-    LW_TRY(read, read_image_file(color));
+    LW_TRY(read, read_image_file(color, limit));
     colors = std::move(read);
   }
   const Image& size = color.empty() ? opacity : colors;

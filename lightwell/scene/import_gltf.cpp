@@ -116,10 +116,10 @@ class Importer {
     scene_.name = std::move(name);
   }
 
-  Result<Scene> import(const std::optional<Vec3d>& origin) {
+  Result<Scene> import(const std::optional<Vec3d>& origin, ImageLimit limit) {
     const Json& json = scene_.document.json;
     scene_.materials = read_materials(json, report_);
-    scene_.images = read_images(scene_.document, report_);
+    scene_.images = read_images(scene_.document, limit, report_);
     joint_nodes_ = joint_nodes(json);
     LW_CHECK(walk_nodes());
     LW_CHECK(place_meshes());
@@ -347,7 +347,7 @@ class Importer {
   void read_lamps_and_cameras() {
     const Json& json = scene_.document.json;
     for (const auto& [node, to_scene] : lamps_and_cameras_) {
-      if (auto lamp = read_lamp(json, node, to_scene)) scene_.lamps.push_back(std::move(*lamp));
+      if (auto lamp = read_lamp(json, node, to_scene, report_)) scene_.lamps.push_back(std::move(*lamp));
       if (auto camera = read_camera(json, node, to_scene, report_)) scene_.cameras.push_back(std::move(*camera));
     }
   }
@@ -366,8 +366,8 @@ class Importer {
 }  // namespace
 
 Result<Scene> scene_from_document(Document document, std::string name, Report& report,
-                                  const std::optional<Vec3d>& origin) {
-  return Importer(std::move(document), std::move(name), report).import(origin);
+                                  const std::optional<Vec3d>& origin, ImageLimit limit) {
+  return Importer(std::move(document), std::move(name), report).import(origin, limit);
 }
 
 }  // namespace lightwell

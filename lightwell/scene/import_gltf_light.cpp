@@ -24,17 +24,28 @@ std::string name_of(const Json& element, const Json& node) {
   return name.empty() ? text(node, "name") : name;
 }
 
+std::optional<Lamp::Kind> kind_of(const std::string& type) {
+  if (type == "point") return Lamp::Kind::point;
+  if (type == "spot") return Lamp::Kind::spot;
+  if (type == "directional") return Lamp::Kind::sun;
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::optional<Lamp> read_lamp(const Json& document, int node_index, const Transform& to_scene) {
+std::optional<Lamp> read_lamp(const Json& document, int node_index, const Transform& to_scene, Report& report) {
   const Json& node = node_of(document, node_index);
   const int index = index_of(extension(node, "KHR_lights_punctual"), "light");
   const Json& light = element(member(extension(document, "KHR_lights_punctual"), "lights"), static_cast<size_t>(index));
   if (index < 0 || !light.is_object()) return std::nullopt;
+  const std::optional<Lamp::Kind> kind = kind_of(text(light, "type"));
+  if (!kind) {
+    report.warn(element_name("lights", static_cast<size_t>(index)) + ": type \"" + text(light, "type").substr(0, 40) +
+                "\" is none of point, spot and directional; left out");
+    return std::nullopt;
+  }
   Lamp lamp;
-  const std::string type = text(light, "type");
-  if (type == "directional") lamp.kind = Lamp::Kind::sun;
-  if (type == "spot") lamp.kind = Lamp::Kind::spot;
+  lamp.kind = *kind;
   lamp.name = name_of(light, node);
   lamp.position = to_scene.t.cast<float>();
   lamp.direction = normalized(-to_scene.z).cast<float>();

@@ -151,16 +151,42 @@ class MaterialReader {
   bool clamped_ = false;
 };
 
-Result<Image> decode_image(const Document& document, int index) {
+Result<Image> decode_image(const Document& document, int index, ImageLimit limit) {
   LW_TRY(bytes, read_image(document, index));
   const std::string name = element_name("images", static_cast<size_t>(index));
-  constexpr std::string_view ktx2 = "\xabKTX 20";
-  if (bytes.size() > ktx2.size() && std::equal(ktx2.begin(), ktx2.end(), bytes.begin(),
-                                               [](char a, uint8_t b) { return static_cast<uint8_t>(a) == b; }))
-    return fail(ErrorKind::unsupported, name, "KHR_texture_basisu is not supported");
-  auto image = read_image_file(bytes);
-  if (!image) return fail(in_element(image.error(), name));
+  auto image = read_image_file(bytes, limit);
+  if (!image) return fail(in_element(naming_image_option(image.error()), name));
   return image;
+}
+
+/// For each image of a document whether a texture is read from it. Of the others are those for viewers that lack an
+/// extension.
+std::vector<bool> read_by_textures(const Json& document) {
+  std::vector<bool> read(member(document, "images").size(), false);
+  for (const Json& texture : member(document, "textures"))
+    if (const auto image = static_cast<size_t>(image_of(texture)); image < read.size()) read[image] = true;
+  return read;
+}
+
+/// For each image of a document whether it is in KTX2: no library of Debian's decodes that. `report` gets a line on
+/// what stands for them.
+std::vector<bool> images_in_ktx2(const Json& document, Report& report) {
+  std::vector<bool> in_ktx2(member(document, "images").size(), false);
+  size_t with_other = 0, without = 0;
+  for (const Json& texture : member(document, "textures")) {
+    const int source = index_of(extension(texture, "KHR_texture_basisu"), "source");
+    if (static_cast<size_t>(source) >= in_ktx2.size()) continue;
+    in_ktx2[static_cast<size_t>(source)] = true;
+    ++(image_of(texture) == source ? without : with_other);
+  }
+  const auto warn = [&](size_t count, const std::string& stands) {
+    if (count > 0)
+      report.warn(std::to_string(count) + (count > 1 ? " textures are" : " texture is") +
+                  " in KTX2 (KHR_texture_basisu), which is not decoded: " + stands);
+  };
+  warn(with_other, "the image that the file has for such readers is baked and shown");
+  warn(without, "white is baked and shown; as WebP, PNG or JPEG it would be read");
+  return in_ktx2;
 }
 
 /// One warning for each extension that is not followed, by the first material that has it.
@@ -197,19 +223,21 @@ std::vector<Material> read_materials(const Json& document, Report& report) {
   return materials;
 }
 
-std::vector<Image> read_images(const Document& document, Report& report) {
-  std::vector<Image> images;
+std::vector<Image> read_images(const Document& document, ImageLimit limit, Report& report) {
+  const Image white{1, 1, 3, {255, 255, 255}};
+  const std::vector<bool> read = read_by_textures(document.json), in_ktx2 = images_in_ktx2(document.json, report);
+  std::vector<Image> images(read.size(), white);
   uint64_t pixels = 0;
-  for (size_t i = 0; i < member(document.json, "images").size(); i++) {
-    auto image = decode_image(document, static_cast<int>(i));
+  for (size_t i = 0; i < images.size(); i++) {
+    if (!read[i] || in_ktx2[i]) continue;
+    auto image = decode_image(document, static_cast<int>(i), limit);
     if (image) pixels += uint64_t(static_cast<uint32_t>(image->width)) * static_cast<uint32_t>(image->height);
     if (image && pixels > max_pixels)
       image = fail(ErrorKind::limit, element_name("images", i), "too many pixels in all images together");
-    if (!image) {
+    if (image)
+      images[i] = std::move(*image);
+    else
       report.warn(image.error().message() + "; a white pixel stands for it");
-      image = Image{1, 1, 3, {255, 255, 255}};
-    }
-    images.push_back(std::move(*image));
   }
   return images;
 }

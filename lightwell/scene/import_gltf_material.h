@@ -15,8 +15,8 @@ std::vector<Material> read_materials(const Json& document, Report& report);
 /// both are absent; -1 when there is none.
 int image_of(const Json& texture);
 
-/// The images of a document in its order, decoded. An image that cannot be read becomes a white pixel, and `report`
-/// gets a warning.
-std::vector<Image> read_images(const Document& document, Report& report);
+/// The images of a document in its order, decoded. One that no texture is read from is a white pixel; one that cannot
+/// be read becomes that, and `report` gets a warning.
+std::vector<Image> read_images(const Document& document, ImageLimit limit, Report& report);
 
 }  // namespace lightwell

@@ -42,4 +42,15 @@ Result<void> choose_scene(Document& document, const std::string& choice, Report&
   return {};
 }
 
+void name_variants(const Json& document, Report& report) {
+  const Json& variants = member(extension(document, "KHR_materials_variants"), "variants");
+  std::vector<std::string> names;
+  for (size_t i = 0; i < variants.size(); i++) {
+    const std::string given = text(variants[i], "name");
+    names.push_back(given.empty() ? std::to_string(i) : '"' + given + '"');
+  }
+  if (!names.empty())
+    report.warn("variants " + list_of(names) + " are kept; the light is that of the materials without a variant");
+}
+
 }  // namespace lightwell

@@ -220,10 +220,10 @@ void add_shape(const Obj& obj, const tinyobj::shape_t& shape, const std::vector<
 
 }  // namespace
 
-Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report) {
+Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report, ImageLimit limit) {
   LW_TRY(text, checked_obj_text(file, report));
   const Vec3d origin = move_to_origin(text);
-  ObjMaterialReader materials(folder, report);
+  ObjMaterialReader materials(folder, limit, report);
   LW_TRY(obj, read_obj(text, materials, report));
   const std::vector<Vec3f> smooth = normals_of_positions(obj);
   SceneBuilder scene;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "lightwell/gltf/document.h"
+#include "lightwell/texture/image.h"
 
 namespace lightwell {
 
@@ -12,6 +13,6 @@ namespace lightwell {
 /// since the winding of OBJ files is not reliable. Kd and Ke are taken as linear, vertex colours as sRGB. Faces are cut
 /// into triangles; equal corners share a vertex; corners without a normal get the smooth one of their position. Points,
 /// lines and curves are left out with a warning. Errors name the line, face or vertex at fault.
-Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report);
+Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, Report& report, ImageLimit limit = {});
 
 }  // namespace lightwell

@@ -5,14 +5,16 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/scene/builtin.h"
+#include "lightwell/scene/import_assimp.h"
 #include "lightwell/scene/import_draco.h"
 #include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/import_obj.h"
+#include "lightwell/scene/lamp_units.h"
 #include "lightwell/scene/obj_text.h"
+#include "lightwell/scene/plain_images.h"
 #include "lightwell/scene/ply.h"
 #include "lightwell/scene/scene.h"
 #include "lightwell/scene/stl.h"
-#include "lightwell/scene/upright_images.h"
 #include "lightwell/texture/image_format.h"
 
 namespace lightwell {
@@ -61,28 +63,42 @@ std::string scene_name(std::filesystem::path path) {
   return path.stem().string();
 }
 
-Result<Document> document_of(Bytes file, const std::filesystem::path& path, Report& report) {
+/// What a file of no format of ours becomes: a document where assimp was built in, else the refusal.
+Result<Document> document_of_other([[maybe_unused]] Bytes file, [[maybe_unused]] const std::filesystem::path& path,
+                                   const std::string& refusal, [[maybe_unused]] Report& report) {
+#ifdef LIGHTWELL_ASSIMP
+  auto document = assimp_document(file, path, report);
+  if (document) return document;
+  return fail(ErrorKind::unsupported, "", refusal + " (" + document.error().message() + ")");
+#else
+  return fail(ErrorKind::unsupported, "", refusal);
+#endif
+}
+
+Result<Document> document_of(Bytes file, const std::filesystem::path& path, ImageLimit limit, Report& report) {
   const std::filesystem::path folder = path.parent_path();
   if (file.empty()) return fail("", "is empty");
   if (is_ply(file)) return ply_document(file, folder, scene_name(path), report);
   if (const auto format = unsupported_format(file))
-    return fail(ErrorKind::unsupported, "", "cannot be read: it is " + *format);
+    return document_of_other(file, path, "cannot be read: it is " + *format, report);
   if (is_draco(file)) return draco_document(file);
   if (is_stl(file)) return stl_document(file, report);
   if (is_gltf(file)) return read_document(file, folder, report);
-  if (is_obj(file)) return obj_document(file, folder, report);
-  return fail(ErrorKind::unsupported, "", "is neither glTF, OBJ, PLY, STL nor Draco");
+  if (is_obj(file)) return obj_document(file, folder, report, limit);
+  return document_of_other(file, path, "is neither glTF, OBJ, PLY, STL nor Draco", report);
 }
 
 Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& options, Report& report) {
   constexpr bool inflate = true;
   LW_TRY(file, read_file(path, inflate));
-  LW_TRY(document, document_of(file, path, report));
+  LW_TRY(document, document_of(file, path, options.images, report));
   file = {};  // the document has its own copy of what it needs
   LW_CHECK(choose_scene(document, options.scene, report));
+  name_variants(document.json, report);
+  make_lamps_radiometric(document, options.lamp_units, report);
   reorient(document, options.up, options.unit);
-  make_images_upright(document);
-  return scene_from_document(std::move(document), scene_name(path), report);
+  make_images_plain(document, options.images);
+  return scene_from_document(std::move(document), scene_name(path), report, {}, options.images);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "lightwell/gltf/resource.h"
 #include "lightwell/scene/cutout.h"
 #include "lightwell/scene/obj_text.h"
+#include "lightwell/texture/image_file.h"
 
 namespace lightwell {
 namespace {
@@ -78,11 +79,12 @@ void ObjMaterialReader::add_opacity(SceneBuilder& scene, const tinyobj::material
   auto color = material.diffuse_texname.empty() ? Result<std::vector<uint8_t>>()
                                                 : read_uri(texture_uri(material.diffuse_texname, index), folder_);
   const Result<std::vector<uint8_t>> cut =
-      mask && color ? cut_out(*color, *mask) : fail(mask ? color.error() : mask.error());
+      mask && color ? cut_out(*color, *mask, limit_) : fail(mask ? color.error() : mask.error());
   if (cut)
     json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", scene.texture(*cut)}};
   else
-    report_.warn("material " + material.name.substr(0, 80) + ": map_d is left out: " + cut.error().message());
+    report_.warn("material " + material.name.substr(0, 80) +
+                 ": map_d is left out: " + naming_image_option(cut.error()).message());
 }
 
 int ObjMaterialReader::add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,

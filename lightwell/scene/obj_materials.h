@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightwell/scene/scene_builder.h"
+#include "lightwell/texture/image.h"
 
 namespace lightwell {
 
@@ -16,7 +17,8 @@ namespace lightwell {
 /// warning.
 class ObjMaterialReader : public tinyobj::MaterialReader {
  public:
-  ObjMaterialReader(std::filesystem::path folder, Report& report) : folder_(std::move(folder)), report_(report) {}
+  ObjMaterialReader(std::filesystem::path folder, ImageLimit limit, Report& report)
+      : folder_(std::move(folder)), limit_(limit), report_(report) {}
 
   /// Called by the library with the rest of an mtllib line.
   bool operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
@@ -31,6 +33,7 @@ class ObjMaterialReader : public tinyobj::MaterialReader {
   void add_opacity(SceneBuilder& scene, const tinyobj::material_t& material, size_t index, Json& json) const;
 
   std::filesystem::path folder_;
+  ImageLimit limit_;
   Report& report_;
   std::vector<std::filesystem::path> folder_of_material_;  ///< of its MTL file, relative to the OBJ's
 };

@@ -107,7 +107,7 @@ struct Scene {
   std::vector<Primitive> primitives;
   std::vector<Instance> instances;
   std::vector<Material> materials;
-  std::vector<Image> images;  ///< decoded; an image that could not be read is one white pixel
+  std::vector<Image> images;  ///< decoded; one that is not or cannot be read is a white pixel
   std::vector<Lamp> lamps;
   std::vector<Camera> cameras;
   Environment environment;
@@ -117,11 +117,16 @@ struct Scene {
   const Material& material_of(const Primitive& primitive) const;
 };
 
+/// What the intensities of a file's lamps are: W/sr and W/m2, or cd and lx; automatic: by the program that wrote it.
+enum class LampUnits { automatic, radiometric, photometric };
+
 struct ImportOptions {
   char up = 'y';           ///< the axis of the file that points up: 'y' or 'z'
   float unit = 1;          ///< length of the file's unit in metres
   uint64_t seed = 1;       ///< of built-in scenes
   std::string scene = {};  ///< name or number of the scene in a glTF that is shown; empty: its default one
+  ImageLimit images = {};  ///< of each
+  LampUnits lamp_units = LampUnits::automatic;
 };
 
 /// Reads a scene: a glTF 2.0 or GLB, OBJ or PLY file, each possibly gzipped, recognised by content; or a built-in scene

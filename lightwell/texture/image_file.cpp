@@ -31,24 +31,30 @@ Image without_alpha(const Image& image) {
 
 }  // namespace
 
-Result<void> check_image_size(uint64_t width, uint64_t height) {
+Result<void> check_image_size(uint64_t width, uint64_t height, ImageLimit limit) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   if (width == 0 || height == 0) return fail(size, "an empty image");
-  if (width > max_image_side || height > max_image_side || width * height > max_image_pixels)
+  if (width > limit.side() || height > limit.side() || width * height > limit.pixels)
     return fail(ErrorKind::limit, size,
-                "an image may have " + std::to_string(max_image_side) + " pixels a side, and 64 million in all");
+                "an image may have " + std::to_string(limit.side()) + " pixels a side, and " +
+                    std::to_string(limit.pixels >> 20) + " million in all");
   return {};
 }
 
-Result<Image> read_image_file(Bytes file) {
+Error naming_image_option(Error error) {
+  if (error.kind == ErrorKind::limit) error.reason += "; --max-image-megapixels raises that";
+  return error;
+}
+
+Result<Image> read_image_file(Bytes file, ImageLimit limit) {
   const auto format = image_format(file);
-  if (!format) return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG or WebP");
+  if (!format) return read_bmp_or_tga(file, limit);
   switch (*format) {
-    case ImageFormat::png: return read_png(file);
-    case ImageFormat::jpeg: return read_jpeg(file);
-    case ImageFormat::webp: return read_webp(file);
+    case ImageFormat::png: return read_png(file, limit);
+    case ImageFormat::jpeg: return read_jpeg(file, limit);
+    case ImageFormat::webp: return read_webp(file, limit);
   }
-  return fail(ErrorKind::unsupported, "image", "is no PNG, JPEG or WebP");
+  return read_bmp_or_tga(file, limit);
 }
 
 std::vector<uint8_t> write_preview(const Image& image, int longest_side, bool color) {

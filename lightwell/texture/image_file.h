@@ -10,22 +10,23 @@
 
 namespace lightwell {
 
-/// The largest image that is accepted; checked before memory is allocated.
-constexpr uint64_t max_image_side = 16384;
-constexpr uint64_t max_image_pixels = uint64_t(1) << 26;
+/// Fails when an image of this size is empty or beyond the limit.
+Result<void> check_image_size(uint64_t width, uint64_t height, ImageLimit limit = {});
 
-/// Fails when an image of this size is empty or beyond the limits.
-Result<void> check_image_size(uint64_t width, uint64_t height);
+/// The error with the option that raises the limit, where it is one of a picture beyond that.
+Error naming_image_option(Error error);
 
-/// Decodes a PNG, JPEG or WebP file, recognised by content. Sixteen bits become eight, palettes and bit depths below
-/// eight are expanded, CMYK becomes RGB; channels stay as they are otherwise. Colour profiles and gamma chunks are
-/// ignored, as glTF asks (section 3.8.3). Errors name the format and the reason; any bytes are safe.
-Result<Image> read_image_file(Bytes file);
+/// Decodes a PNG, JPEG, WebP, BMP or TGA file, recognised by content. Sixteen bits become eight, palettes and bit
+/// depths below eight are expanded, CMYK becomes RGB; channels stay as they are otherwise. Colour profiles and gamma
+/// chunks are ignored, as glTF asks (section 3.8.3). Errors name the format and the reason; any bytes are safe.
+Result<Image> read_image_file(Bytes file, ImageLimit limit = {});
 
 /// The readers of single formats, among which read_image_file chooses.
-Result<Image> read_png(Bytes file);
-Result<Image> read_jpeg(Bytes file);
-Result<Image> read_webp(Bytes file);
+Result<Image> read_png(Bytes file, ImageLimit limit = {});
+Result<Image> read_jpeg(Bytes file, ImageLimit limit = {});
+Result<Image> read_webp(Bytes file, ImageLimit limit = {});
+/// BMP without compression, TGA with run lengths or without; neither can be in a pack (image_format.h).
+Result<Image> read_bmp_or_tga(Bytes file, ImageLimit limit = {});
 
 /// A PNG file of an image of one to four channels.
 std::vector<uint8_t> write_png(const Image& image);

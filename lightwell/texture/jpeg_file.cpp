@@ -122,13 +122,13 @@ Image rgb_of_cmyk(const Image& cmyk, bool complemented) {
 
 }  // namespace
 
-Result<Image> read_jpeg(Bytes file) {
+Result<Image> read_jpeg(Bytes file, ImageLimit limit) {
   Reading r;
   if (!start(r, file)) return fail("JPEG", r.handler.message);
   const int channels = r.codec.num_components;
   if (channels != 1 && channels != 3 && channels != 4)
     return fail(ErrorKind::unsupported, "JPEG", "has " + std::to_string(channels) + " components");
-  LW_CHECK(check_image_size(r.codec.image_width, r.codec.image_height));
+  LW_CHECK(check_image_size(r.codec.image_width, r.codec.image_height, limit));
   if (uint64_t(r.codec.image_width) * r.codec.image_height > file.size() * most_pixels_a_byte)
     return fail("JPEG", "the file is too short for its size");
   r.image = {static_cast<int>(r.codec.image_width), static_cast<int>(r.codec.image_height), channels, {}};
@@ -140,8 +140,9 @@ Result<Image> read_jpeg(Bytes file) {
 }
 
 std::vector<uint8_t> write_jpeg(const Image& image, int quality) {
-  LW_ASSERT((image.channels == 1 || image.channels == 3) &&
-            check_image_size(static_cast<uint64_t>(image.width), static_cast<uint64_t>(image.height)));
+  LW_ASSERT(
+      (image.channels == 1 || image.channels == 3) &&
+      check_image_size(static_cast<uint64_t>(image.width), static_cast<uint64_t>(image.height), highest_image_limit));
   Writing w;
   jpeg_create_compress(&w.codec);
   jpeg_mem_dest(&w.codec, &w.bytes, &w.size);

@@ -58,13 +58,19 @@ void write_bytes(png_structp png, png_bytep bytes, size_t count) {
   writing->bytes.insert(writing->bytes.end(), bytes, bytes + count);
 }
 
-/// Reads the header and asks for 8-bit channels. False after an error.
-bool start(Reading& r) {
+/// Reads the header; its size is checked by the caller. False after an error.
+bool read_header(Reading& r) {
   if (setjmp(png_jmpbuf(r.png))) return false;
   png_set_read_fn(r.png, &r, read_bytes);
-  png_set_user_limits(r.png, max_image_side, max_image_side);
+  png_set_user_limits(r.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
   png_read_info(r.png, r.info);
   r.stored_stride = png_get_rowbytes(r.png, r.info);
+  return true;
+}
+
+/// Asks for 8-bit channels. False after an error.
+bool expand(Reading& r) {
+  if (setjmp(png_jmpbuf(r.png))) return false;
   png_set_expand(r.png);
   png_set_scale_16(r.png);
   png_set_interlace_handling(r.png);
@@ -80,15 +86,16 @@ bool read_rows(Reading& r) {
 
 }  // namespace
 
-Result<Image> read_png(Bytes file) {
+Result<Image> read_png(Bytes file, ImageLimit limit) {
   Reading r(file);
   r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &r, on_read_error, on_warning);
   r.info = r.png ? png_create_info_struct(r.png) : nullptr;
-  if (!r.info) return fail(ErrorKind::limit, "PNG", "out of memory");
-  if (!start(r)) return fail("PNG", r.error);
+  if (!r.info) return fail("PNG", "out of memory");
+  if (!read_header(r)) return fail("PNG", r.error);
   const size_t width = png_get_image_width(r.png, r.info), height = png_get_image_height(r.png, r.info);
-  LW_CHECK(check_image_size(width, height));
+  LW_CHECK(check_image_size(width, height, limit));
   if (r.stored_stride * height > file.size() * most_inflation) return fail("PNG", "the file is too short for its size");
+  if (!expand(r)) return fail("PNG", r.error);
   r.image = {static_cast<int>(width), static_cast<int>(height), png_get_channels(r.png, r.info), {}};
   const size_t stride = png_get_rowbytes(r.png, r.info);
   LW_ASSERT(stride == width * static_cast<size_t>(r.image.channels));
@@ -101,8 +108,9 @@ Result<Image> read_png(Bytes file) {
 std::vector<uint8_t> write_png(const Image& image) {
   constexpr int color_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                  PNG_COLOR_TYPE_RGB_ALPHA};
-  LW_ASSERT(image.channels >= 1 && image.channels <= 4 &&
-            check_image_size(static_cast<uint64_t>(image.width), static_cast<uint64_t>(image.height)));
+  LW_ASSERT(
+      image.channels >= 1 && image.channels <= 4 &&
+      check_image_size(static_cast<uint64_t>(image.width), static_cast<uint64_t>(image.height), highest_image_limit));
   Writing w;
   w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, on_warning);
   w.info = w.png ? png_create_info_struct(w.png) : nullptr;

@@ -11,7 +11,6 @@ namespace lightwell {
 namespace {
 
 constexpr size_t max_side = size_t(1) << 15;  // what the new run-length coding can say
-constexpr size_t max_pixels = size_t(1) << 26;
 constexpr size_t longest_line = 4096;
 
 using Rgbe = std::array<uint8_t, 4>;
@@ -53,7 +52,7 @@ Result<void> read_variable(std::string_view line, Header& header) {
 }
 
 /// "-Y 512 +X 1024": rows from top to bottom, columns from left to right.
-Result<void> read_resolution(const std::string& line, Header& header) {
+Result<void> read_resolution(const std::string& line, ImageLimit limit, Header& header) {
   std::array<std::string, 4> words;
   size_t word = 0;
   for (const char c : line) {
@@ -65,14 +64,16 @@ Result<void> read_resolution(const std::string& line, Header& header) {
   if (!rows_first || !columns_next || !parse(words[1], header.height) || !parse(words[3], header.width))
     return fail(ErrorKind::unsupported, "HDR", "unsupported resolution \"" + line.substr(0, 40) + "\"");
   if (header.width == 0 || header.height == 0) return fail("HDR", "an empty image");
-  if (header.width >= max_side || header.height >= max_side || header.width * header.height > max_pixels)
-    return fail(ErrorKind::limit, "HDR", words[3] + " x " + words[1] + " pixels are too many");
+  if (header.width >= max_side || header.height >= max_side || header.width * header.height > limit.pixels)
+    return fail(
+        ErrorKind::limit, "HDR",
+        words[3] + " x " + words[1] + " pixels are more than " + std::to_string(limit.pixels >> 20) + " million");
   header.bottom_up = words[0] == "+Y";
   header.right_to_left = words[2] == "-X";
   return {};
 }
 
-Result<Header> read_header(ByteReader& reader) {
+Result<Header> read_header(ByteReader& reader, ImageLimit limit) {
   LW_TRY(magic, next_line(reader));
   if (!magic.starts_with("#?")) return fail("HDR", "is no Radiance picture");
   Header header;
@@ -82,7 +83,7 @@ Result<Header> read_header(ByteReader& reader) {
     LW_CHECK(read_variable(line, header));
   }
   LW_TRY(resolution, next_line(reader));
-  LW_CHECK(read_resolution(resolution, header));
+  LW_CHECK(read_resolution(resolution, limit, header));
   return header;
 }
 
@@ -150,9 +151,9 @@ void flip_rows(RadianceImage& image) {
 
 }  // namespace
 
-Result<RadianceImage> read_radiance_hdr(Bytes file) {
+Result<RadianceImage> read_radiance_hdr(Bytes file, ImageLimit limit) {
   ByteReader reader(file);
-  LW_TRY(header, read_header(reader));
+  LW_TRY(header, read_header(reader, limit));
   RadianceImage image{static_cast<int>(header.width), static_cast<int>(header.height), {}};
   std::vector<Rgbe> row(header.width);
   for (size_t y = 0; y < header.height; y++) {

@@ -10,7 +10,7 @@ namespace lightwell {
 /// Decodes a Radiance picture (.hdr, .pic): RGBE, flat or run-length coded in the old or the new way (Ward, "Real
 /// Pixels", Graphics Gems II; Radiance's color.c). A mantissa m and exponent e are m * 2^(e - 136), divided by the
 /// header's EXPOSURE. The first row may be at the top or bottom, the first column left or right; XYZE and pictures
-/// stored by columns are refused. At most 2^26 pixels; memory grows with what was decoded. Any bytes are safe.
-Result<RadianceImage> read_radiance_hdr(Bytes file);
+/// stored by columns are refused. Memory grows with what was decoded. Any bytes are safe.
+Result<RadianceImage> read_radiance_hdr(Bytes file, ImageLimit limit = {});
 
 }  // namespace lightwell

@@ -13,11 +13,11 @@ constexpr uint64_t pixels_per_byte = 1024;
 
 }  // namespace
 
-Result<Image> read_webp(Bytes file) {
+Result<Image> read_webp(Bytes file, ImageLimit limit) {
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK) return fail("WebP", "damaged header");
   if (features.has_animation) return fail(ErrorKind::unsupported, "WebP", "is an animation");
-  LW_CHECK(check_image_size(static_cast<uint64_t>(features.width), static_cast<uint64_t>(features.height)));
+  LW_CHECK(check_image_size(static_cast<uint64_t>(features.width), static_cast<uint64_t>(features.height), limit));
   const uint64_t pixels = static_cast<uint64_t>(features.width) * static_cast<uint64_t>(features.height);
   if (pixels > free_pixels + file.size() * pixels_per_byte)
     return fail("WebP", "claims more pixels than it has bytes for");

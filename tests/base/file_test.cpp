@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <set>
 
 #include "tests/base/gzipped.h"
@@ -109,6 +112,34 @@ TEST_F(FileTest, IsMadeUnderANameThatIsNewEachTimeAndReadableAsUsual) {
   struct stat status {};
   ASSERT_EQ(stat((folder_ / "pack").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0666 & ~mask);
+}
+
+// What others write at the same time, and files of similar names, stay.
+TEST_F(FileTest, OfAProcessThatWasKilledIsRemovedByTheNext) {
+  const std::set<std::string> others = {"pack.0123456789abcdef.part.glb", "pack.0123.part", "a.0123456789abcdef.part"};
+  for (const std::string& name : others) ASSERT_TRUE(write_file(folder_ / name, as_bytes("another's")));
+  const pid_t writer = fork();
+  if (writer == 0) {
+    (void)write_file(folder_ / "pack", [](const Append& append) -> Result<void> {
+      append(as_bytes("half"));
+      raise(SIGKILL);
+      return {};
+    });
+    _exit(1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(writer, &status, 0), writer);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ASSERT_EQ(names().size(), others.size() + 1) << "the half file is there";
+  ASSERT_TRUE(write_file(folder_ / "pack", [&](const Append& append) -> Result<void> {
+    EXPECT_EQ(names().size(), others.size() + 1) << "the half file is gone";
+    EXPECT_TRUE(check_writable(folder_ / "pack"));
+    EXPECT_EQ(names().size(), others.size() + 1) << "that of this writer is not";
+    EXPECT_TRUE(append(as_bytes("whole")));
+    return {};
+  }));
+  EXPECT_EQ(text_of(folder_ / "pack"), "whole");
+  EXPECT_EQ(names().size(), others.size() + 1);
 }
 
 TEST_F(FileTest, ThatIsALinkStaysOneAndItsTargetIsReplaced) {

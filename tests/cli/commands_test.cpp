@@ -3,6 +3,9 @@
 // The program as its users meet it: what it prints, its exit status, and what it leaves behind.
 #include "tests/cli/commands.h"
 
+#include <array>
+#include <functional>
+
 namespace lightwell {
 namespace {
 
@@ -161,25 +164,37 @@ std::string room_at(double x, double y, double z) {
          "usemtl wall\nf 1 2 3 4\nf 8 7 6 5\nf 1 5 6 2\nf 4 3 7 8\nf 1 4 8 5\nf 2 6 7 3\nusemtl lamp\nf 9 10 11 12\n";
 }
 
-TEST_F(Commands, BakeAdvisesOnTheUnit) {
-  std::string text = room_at(0, 0, 0);
-  write("room.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n");
-  write("room.obj", text);
-  const std::string bake = "bake " + path("room.obj") + " --grid 4 --photons 20k -o " + path("room.lw.glb");
-  EXPECT_EQ(run(bake).err.find("--unit"), std::string::npos);
-  EXPECT_EQ(run(bake + " --unit 1000").err.find("--unit"), std::string::npos);  // it has been said
-  std::string large;
-  std::istringstream words(text);
-  for (std::string line; std::getline(words, line);) {
+// The text of an OBJ file with its positions changed.
+std::string moved(const std::string& text, const std::function<std::array<double, 3>(double, double, double)>& move) {
+  std::string changed;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
     std::istringstream numbers(line);
     std::string keyword;
     double x = 0, y = 0, z = 0;
-    if (numbers >> keyword >> x >> y >> z && keyword == "v")
-      line = "v " + std::to_string(1000 * x) + ' ' + std::to_string(1000 * y) + ' ' + std::to_string(1000 * z);
-    large += line + '\n';
+    if (numbers >> keyword >> x >> y >> z && keyword == "v") {
+      line = "v";
+      for (const double coordinate : move(x, y, z)) line += ' ' + std::to_string(coordinate);
+    }
+    changed += line + '\n';
   }
-  write("room.obj", large);
+  return changed;
+}
+
+TEST_F(Commands, BakeAdvisesOnUnitAndUpAxis) {
+  const std::string text = room_at(0, 0, 0);
+  write("room.mtl", "newmtl wall\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n");
+  write("room.obj", text);
+  const std::string bake = "bake " + path("room.obj") + " --grid 4 --photons 20k -o " + path("room.lw.glb");
+  const std::string said = run(bake).err;
+  EXPECT_EQ(said.find("--unit"), std::string::npos);
+  EXPECT_EQ(said.find("--up"), std::string::npos);
+  EXPECT_EQ(run(bake + " --unit 1000").err.find("--unit"), std::string::npos);  // it has been said
+  write("room.obj", moved(text, [](double x, double y, double z) { return std::array{1000 * x, 1000 * y, 1000 * z}; }));
   EXPECT_NE(run(bake).err.find("4,000 m long: if the file's unit is the millimetre, --unit 0.001"), std::string::npos);
+  write("room.obj", moved(text, [](double x, double y, double z) { return std::array{x, -z, y}; }));
+  EXPECT_NE(run(bake).err.find("if the file's z axis points up, --up z says so"), std::string::npos);
+  EXPECT_EQ(run(bake + " --up z").err.find("--up"), std::string::npos);
 }
 
 // What is far away is lit as at the origin; points are asked for and meshes are written in the file's coordinates.

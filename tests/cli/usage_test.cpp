@@ -34,6 +34,7 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"bake box-small --unit inf" + out, "--unit: inf: is not a number"},
            {"bake box-small --unit 0" + out, "--unit: 0: is not a number"},
            {"bake box-small --unit 1m" + out, "--unit: 1m: is not a number"},
+           {"bake box-small --max-image-megapixels 1000" + out, "1000: is not a whole number from 1 to 512"},
            {"bake box-small --up x" + out, "--up: x: is not y or z"},
            {"bake box-small --position-error nan" + out, "--position-error: nan"},
            {"bake box-small --position-error -1" + out, "--position-error: -1"},
@@ -138,6 +139,10 @@ TEST_F(Commands, AFullDeviceIsAnError) {
   const Outcome outcome = run("export " + pack + " -o /dev/full");
   EXPECT_EQ(outcome.status, 1);
   EXPECT_EQ(outcome.err, "lightwell: /dev/full: No space left on device\n");
+  const Outcome baked =
+      run_in_shell(LIGHTWELL_PROGRAM " bake furnace --grid 2 --photons 5k --quiet -o - >/dev/full 2>" + path("stderr"));
+  EXPECT_EQ(baked.status, 1);
+  EXPECT_EQ(baked.err, "lightwell: stdout: No space left on device\n") << "it is not the scene's fault";
   const int status = std::system((LIGHTWELL_PROGRAM " info " + pack + " >/dev/full 2>&1").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1) << "figures that are lost are no success";
 }

@@ -13,6 +13,7 @@
 #include "lightwell/packing/verify.h"
 #include "lightwell/scene/builtin.h"
 #include "tests/packing/sample_scenes.h"
+#include "tests/texture/webp_files.h"
 
 namespace lightwell {
 namespace {
@@ -272,6 +273,42 @@ TEST(MakePack, StreamsImages) {
   Report report;
   const Document again = unpack_document(opened, {}, report).value();
   EXPECT_EQ(read_image(again, 0).value(), file);
+}
+
+// A picture that stands in the file for viewers without an extension is not sent: the page shows the other one.
+TEST(MakePack, HoldsTheImagesThatAreShown) {
+  Document document = room();
+  const std::vector<uint8_t> shown = lossless_webp(read_png(add_noise(document, 64)).value());
+  const std::vector<uint8_t> fallback = write_png(Image{1, 1, 3, {1, 2, 3}});
+  DocumentBuilder builder(document);
+  document.json["images"] = {{{"bufferView", builder.buffer_view(fallback)}, {"mimeType", "image/png"}},
+                             {{"bufferView", builder.buffer_view(shown)}, {"mimeType", "image/webp"}}};
+  document.json["textures"] = Json::parse(R"([{"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}}])");
+  const Packed packed = pack(std::move(document));
+  const OpenedPack opened = open(packed.file);
+  EXPECT_TRUE(verify_pack(opened).errors.empty());
+  Report report;
+  const Document again = unpack_document(opened, {}, report).value();
+  EXPECT_EQ(again.json["images"].size(), 1u);
+  EXPECT_EQ(read_image(again, 0).value(), shown);
+}
+
+// Variants stay with the primitives, whose materials are renumbered by nobody.
+TEST(MakePack, KeepsVariants) {
+  Document document = room();
+  const Json variants = {{"variants", {{{"name", "oak"}}, {{"name", "steel"}}}}};
+  document.json["extensionsUsed"].push_back("KHR_materials_variants");
+  document.json["extensions"]["KHR_materials_variants"] = variants;
+  document.json["materials"].push_back({{"name", "steel"}});
+  const size_t steel = document.json["materials"].size() - 1;
+  const Json mappings = {{"mappings", {{{"material", steel}, {"variants", {1}}}}}};
+  document.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"] = mappings;
+  const Packed packed = pack(std::move(document));
+  const OpenedPack opened = open(packed.file);
+  EXPECT_TRUE(verify_pack(opened).errors.empty());
+  EXPECT_EQ(opened.json()["extensions"]["KHR_materials_variants"], variants);
+  EXPECT_EQ(opened.json()["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"], mappings);
+  EXPECT_EQ(opened.json()["materials"][steel]["name"], "steel");
 }
 
 TEST(MakePack, GivesTheSameBytesForAnyNumberOfThreads) {

@@ -8,6 +8,7 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/texture/image_file.h"
+#include "tests/texture/webp_files.h"
 
 namespace lightwell {
 namespace {
@@ -386,16 +387,55 @@ TEST(ImportGltf, ImagesAreDecodedAndOthersAreWhite) {
   builder.add("images", {{"bufferView", png}, {"mimeType", "image/png"}});
   builder.add("images", {{"bufferView", builder.buffer_view(as_bytes(ktx2))}, {"mimeType", "image/ktx2"}});
   builder.add("images", {{"uri", "../secret.png"}});
+  builder.add("images", {{"uri", "nobody-asks-for-it.png"}});
+  document.json["textures"] =
+      Json::parse(R"([{"source": 0}, {"extensions": {"KHR_texture_basisu": {"source": 1}}}, {"source": 2}])");
   Report report;
   const Scene scene = import(document, report);
-  ASSERT_EQ(scene.images.size(), 3u);
+  ASSERT_EQ(scene.images.size(), 4u);
   EXPECT_EQ(scene.images[0].pixels, (std::vector<uint8_t>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(scene.images[0].height, 2);
-  for (const size_t i : {1, 2}) EXPECT_EQ(scene.images[i].pixels, (std::vector<uint8_t>{255, 255, 255}));
+  for (const size_t i : {1, 2, 3}) EXPECT_EQ(scene.images[i].pixels, (std::vector<uint8_t>{255, 255, 255}));
+  EXPECT_EQ(report.warnings, (std::vector<std::string>{
+                                 "1 texture is in KTX2 (KHR_texture_basisu), which is not decoded: white is baked and "
+                                 "shown; as WebP, PNG or JPEG it would be read",
+                                 "images[2]: its URI does not lead to a file below the document's folder; a white "
+                                 "pixel stands for it"}));
+}
+
+// An image in another format stands beside glTF's own: WebP is read instead of it, KTX2 is not.
+TEST(ImportGltf, TexturesAreReadFromTheFormatThatIsKnown) {
+  Document document;
+  document.json["scenes"] = Json::array({Json::object()});
+  DocumentBuilder builder(document);
+  builder.add("images", {{"bufferView", builder.buffer_view(write_png(Image{1, 2, 3, {1, 2, 3, 4, 5, 6}}))}});
+  builder.add("images", {{"bufferView", builder.buffer_view(lossless_webp(Image{1, 1, 3, {7, 8, 9}}))}});
+  builder.add("images", {{"bufferView", builder.buffer_view(as_bytes("\xabKTX 20 and so on"))}});
+  document.json["textures"] = Json::parse(R"([{"source": 0, "extensions": {"EXT_texture_webp": {"source": 1}}},
+                                              {"source": 0, "extensions": {"KHR_texture_basisu": {"source": 2}}}])");
+  document.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}},
+                                               {"pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}}])");
+  Report report;
+  const Scene scene = import(document, report);
+  EXPECT_EQ(scene.materials[0].base_color_texture.image, 1);
+  EXPECT_EQ(scene.materials[1].base_color_texture.image, 0);
+  EXPECT_EQ(scene.images[1].pixels, (std::vector<uint8_t>{7, 8, 9}));
+  EXPECT_EQ(scene.images[0].height, 2);
   EXPECT_EQ(report.warnings,
-            (std::vector<std::string>{"images[1]: KHR_texture_basisu is not supported; a white pixel stands for it",
-                                      "images[2]: its URI does not lead to a file below the document's folder; a white "
-                                      "pixel stands for it"}));
+            std::vector<std::string>{"1 texture is in KTX2 (KHR_texture_basisu), which is not decoded: the image that "
+                                     "the file has for such readers is baked and shown"});
+}
+
+TEST(ImportGltf, VariantsAreNamed) {
+  Report report;
+  Json json = Json::object();
+  name_variants(json, report);
+  EXPECT_TRUE(report.warnings.empty());
+  json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "oak"}}, {{"name", "steel"}}};
+  name_variants(json, report);
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{
+                "variants \"oak\", \"steel\" are kept; the light is that of the materials without a variant"});
 }
 
 TEST(ImportGltf, LampsAreRead) {
@@ -423,6 +463,15 @@ TEST(ImportGltf, LampsAreRead) {
   EXPECT_EQ(lamps[2].kind, Lamp::Kind::spot);
   EXPECT_EQ(lamps[2].inner_cone, 0.25f);
   EXPECT_EQ(lamps[2].outer_cone, 0.5f);
+}
+
+TEST(ImportGltf, LampsOfUnknownTypeAreLeftOut) {
+  Document document = scene_document(R"([{"extensions": {"KHR_lights_punctual": {"light": 0}}}])", {0});
+  document.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "area", "intensity": 5}])");
+  Report report;
+  EXPECT_TRUE(import(document, report).lamps.empty());
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"lights[0]: type \"area\" is none of point, spot and directional; left out"});
 }
 
 TEST(ImportGltf, CamerasAndTheSkyAreRead) {

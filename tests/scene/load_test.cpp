@@ -8,6 +8,7 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/scene/scene.h"
+#include "lightwell/texture/image_file.h"
 #include "tests/base/gzipped.h"
 
 namespace lightwell {
@@ -67,6 +68,23 @@ TEST(LoadScene, KeepsTheShapeOfAnObjFarAway) {
   const Box3f bounds = scene->bounds();
   EXPECT_EQ(bounds.size(), (Vec3f{{0.125f, 0.25f, 0}}));
   EXPECT_EQ(bounds.lo.cast<double>() + scene->origin, (Vec3d{{500000.125, 4649776.5, 100}}));
+}
+
+// glTF knows no TGA: what a page gets is a PNG of the same pixels.
+TEST(LoadScene, TurnsPicturesThatGltfDoesNotKnowIntoPng) {
+  const TemporaryFolder folder;
+  const std::string header("\0\0\2\0\0\0\0\0\0\0\0\0\2\0\1\0\30\40", 18);
+  folder.write("wood.tga", header + "\3\2\1\6\5\4");
+  folder.write("wood.mtl", "newmtl wood\nmap_Kd wood.tga\n");
+  const std::string quad = "mtllib wood.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 2\nvt 0 0\nusemtl wood\nf 1/1 2/1 3/1\n";
+  Report report;
+  const auto scene = load_scene(folder.write("wood.obj", quad), {}, report);
+  ASSERT_TRUE(scene) << scene.error().message();
+  EXPECT_TRUE(report.warnings.empty());
+  ASSERT_EQ(scene->images.size(), 1u);
+  EXPECT_EQ(scene->images[0].pixels, (std::vector<uint8_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(scene->document.json["images"][0]["mimeType"], "image/png");
+  EXPECT_EQ(read_png(read_image(scene->document, 0).value()).value().pixels, scene->images[0].pixels);
 }
 
 TEST(LoadScene, TurnsAndScales) {

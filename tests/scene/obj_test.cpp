@@ -224,6 +224,15 @@ TEST_F(ObjTest, MapsOfOpacityCutOut) {
   EXPECT_EQ(report.warnings[0].rfind("material d: map_d is left out", 0), 0u) << report.warnings[0];
 }
 
+// Names as Windows writes them; a texture is looked for beside its MTL file.
+TEST_F(ObjTest, TakesBackslashesForSlashes) {
+  write("below/leaf.png", write_png(Image{1, 1, 3, {10, 20, 30}}));
+  write("below/all.mtl", as_bytes("newmtl a\nmap_KD .\\leaf.png\n"));
+  const Scene scene = read_well("mtllib below\\all.mtl\n" + square + "vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+  EXPECT_EQ(scene.images.at(0).pixels, (std::vector<uint8_t>{10, 20, 30}));
+  EXPECT_TRUE(report.warnings.empty());
+}
+
 TEST_F(ObjTest, SaysWhichTexturesCannotBeShown) {
   write("leaf.png", write_png(Image{1, 1, 3, {10, 20, 30}}));
   write("all.mtl", as_bytes("newmtl a\nmap_Kd leaf.png\n"));

@@ -2,7 +2,6 @@
 #include "lightwell/texture/image_file.h"
 
 #include <gtest/gtest.h>
-#include <webp/encode.h>
 #include <zlib.h>
 
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include <jpeglib.h>
 
 #include "lightwell/base/random.h"
+#include "tests/texture/webp_files.h"
 
 namespace lightwell {
 namespace {
@@ -84,15 +84,6 @@ std::vector<uint8_t> cmyk_jpeg(const Image& image, bool adobe) {
   std::vector<uint8_t> file(bytes, bytes + size);
   jpeg_destroy_compress(&codec);
   std::free(bytes);
-  return file;
-}
-
-std::vector<uint8_t> lossless_webp(const Image& image) {
-  uint8_t* bytes = nullptr;
-  const auto encode = image.channels == 4 ? WebPEncodeLosslessRGBA : WebPEncodeLosslessRGB;
-  const size_t size = encode(image.pixels.data(), image.width, image.height, image.width * image.channels, &bytes);
-  std::vector<uint8_t> file(bytes, bytes + size);
-  WebPFree(bytes);
   return file;
 }
 
@@ -207,6 +198,77 @@ TEST(WebP, MemoryNeedsBytes) {
   EXPECT_NE(read.error().message().find("claims more pixels"), std::string::npos) << read.error().message();
 }
 
+/// A BMP of the kind that most programs write: 24 bits, or 8 with a palette of the given colours; rows from the bottom.
+std::vector<uint8_t> bmp(int width, int height, uint16_t bits, const std::vector<uint8_t>& rows,
+                         const std::vector<uint8_t>& palette = {}) {
+  const auto pixels_at = static_cast<uint32_t>(54 + palette.size());
+  ByteWriter file;
+  file.append(as_bytes("BM"));
+  file.u32(static_cast<uint32_t>(pixels_at + rows.size()));
+  file.u32(0);
+  file.u32(pixels_at);
+  for (const int number : {40, width, height}) file.u32(static_cast<uint32_t>(number));
+  file.u16(1);
+  file.u16(bits);
+  for (int i = 0; i < 6; i++) file.u32(0);
+  file.append(palette);
+  file.append(rows);
+  return file.release();
+}
+
+/// A TGA with its first row at the top.
+std::vector<uint8_t> tga(uint16_t width, uint16_t height, uint8_t type, uint8_t bits, const std::vector<uint8_t>& rest,
+                         uint16_t colors = 0) {
+  ByteWriter file;
+  file.u8(0);
+  file.u8(colors > 0 ? 1 : 0);
+  file.u8(type);
+  file.u16(0);
+  file.u16(colors);
+  file.u8(colors > 0 ? 24 : 0);
+  file.u32(0);
+  file.u16(width);
+  file.u16(height);
+  file.u8(bits);
+  file.u8(0x20);
+  file.append(rest);
+  return file.release();
+}
+
+const std::vector<uint8_t> small_bmp = bmp(1, 2, 24, {3, 2, 1, 0, 6, 5, 4, 0});
+const std::vector<uint8_t> small_tga = tga(3, 1, 10, 24, {0x81, 3, 2, 1, 0x00, 6, 5, 4});
+
+TEST(Bmp, ReadsColoursAndPalettes) {
+  expect_equal(read_image_file(small_bmp), {1, 2, 3, {4, 5, 6, 1, 2, 3}});
+  expect_equal(read_image_file(bmp(1, -2, 24, {3, 2, 1, 0, 6, 5, 4, 0})), {1, 2, 3, {1, 2, 3, 4, 5, 6}});
+  expect_equal(read_image_file(bmp(1, 1, 32, {3, 2, 1, 0})), {1, 1, 4, {1, 2, 3, 255}});
+  // The second pixel is of a colour that the palette lacks.
+  expect_equal(read_image_file(bmp(2, 1, 8, {1, 9, 0, 0}, {3, 2, 1, 0, 6, 5, 4, 0})), {2, 1, 3, {4, 5, 6, 0, 0, 0}});
+}
+
+TEST(Tga, ReadsColoursRunsGreyAndPalettes) {
+  expect_equal(read_image_file(tga(2, 1, 2, 24, {3, 2, 1, 6, 5, 4})), {2, 1, 3, {1, 2, 3, 4, 5, 6}});
+  expect_equal(read_image_file(tga(1, 1, 2, 32, {3, 2, 1, 9})), {1, 1, 4, {1, 2, 3, 9}});
+  expect_equal(read_image_file(tga(1, 1, 2, 32, {3, 2, 1, 0})), {1, 1, 4, {1, 2, 3, 255}});
+  expect_equal(read_image_file(tga(2, 1, 3, 8, {7, 8})), {2, 1, 1, {7, 8}});
+  expect_equal(read_image_file(small_tga), {3, 1, 3, {1, 2, 3, 1, 2, 3, 4, 5, 6}});
+  expect_equal(read_image_file(tga(2, 1, 1, 8, {3, 2, 1, 6, 5, 4, 1, 0}, 2)), {2, 1, 3, {4, 5, 6, 1, 2, 3}});
+}
+
+// The library would take what is missing from memory that nobody has set.
+TEST(BmpAndTga, RefuseShortFiles) {
+  for (const auto& file :
+       {small_bmp, small_tga, tga(3, 1, 2, 24, std::vector<uint8_t>(9)), tga(2, 1, 1, 8, {3, 2, 1, 6, 5, 4, 1, 0}, 2)})
+    for (size_t size = 0; size < file.size(); size++) EXPECT_FALSE(read_image_file(Bytes(file).first(size))) << size;
+  for (const auto& file : {bmp(8192, 8192, 24, {1}), tga(8192, 8192, 2, 32, {1}), tga(8192, 8192, 10, 32, {0xff})}) {
+    const auto read = read_image_file(file);
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().reason.find("too short"), std::string::npos) << read.error().reason;
+  }
+  EXPECT_EQ(read_image_file(bmp(9000, 9000, 1, {1})).error().kind, ErrorKind::limit);
+  EXPECT_EQ(read_image_file(tga(9000, 9000, 3, 8, {1})).error().kind, ErrorKind::limit);
+}
+
 TEST(ImageFile, RefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(read_image_file({}));
   EXPECT_FALSE(read_image_file(as_bytes("GIF89a")));
@@ -216,10 +278,26 @@ TEST(ImageFile, RefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(check_image_size(16384, 4097));
 }
 
+TEST(ImageFile, ItsLimitCanBeSet) {
+  constexpr ImageLimit raised{uint64_t(1) << 28}, lowered{64};
+  EXPECT_TRUE(check_image_size(16384, 16384, raised));
+  EXPECT_FALSE(check_image_size(16385, 16384, raised));
+  EXPECT_TRUE(check_image_size(20000, 1, raised));
+  const Image wide = constant(17, 2, {9}), square = constant(9, 8, {9});
+  for (const Image& image : {wide, square})
+    for (const auto& file : {write_png(image), write_jpeg(image, 90)}) {
+      const auto read = read_image_file(file, lowered);
+      ASSERT_FALSE(read);
+      EXPECT_EQ(read.error().kind, ErrorKind::limit);
+      EXPECT_NE(naming_image_option(read.error()).message().find("--max-image-megapixels"), std::string::npos);
+    }
+  EXPECT_TRUE(read_image_file(write_png(constant(16, 4, {9})), lowered));
+}
+
 TEST(ImageFile, SurvivesFlippedBits) {
   Random random(5, 0);
-  for (const auto& file :
-       {write_png(noise(12, 12, 3)), write_jpeg(noise(12, 12, 3), 70), lossless_webp(noise(12, 12, 4))}) {
+  for (const auto& file : {write_png(noise(12, 12, 3)), write_jpeg(noise(12, 12, 3), 70),
+                           lossless_webp(noise(12, 12, 4)), small_bmp, small_tga}) {
     for (int i = 0; i < 500; i++) {
       auto damaged = file;
       damaged[random.below(static_cast<uint32_t>(file.size()))] ^= static_cast<uint8_t>(1 + random.below(255));
