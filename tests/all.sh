@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # What `./run test --all` adds: format and lint, every test under sanitizers (built by Clang) with ten times the seeds, ten
-# minutes of fuzzing, the npm package in slow toolchains, and everything in ../shared/data baked, verified and streamed. Expects
-# build/release.
-#   all.sh [PART...]   one or several of: style sanitizers fuzz toolchains shared; all by default
+# minutes of fuzzing, the npm package in slow toolchains, the Debian package, and everything in ../shared/data baked, verified
+# and streamed. Expects build/release.
+#   all.sh [PART...]   one or several of: style sanitizers fuzz toolchains package shared; all by default
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-600}
@@ -67,16 +67,21 @@ toolchains() {
   node --test --test-concurrency=1 tests/e2e/slow/*.test.mjs >&2
 }
 
+package() {
+  say "Making the Debian package and using what is in it"
+  tests/package.sh >&2
+}
+
 shared() {
   say "Taking everything in ../shared/data through the program"
   tests/shared_data.sh
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(style sanitizers fuzz toolchains shared)
+[ $# -gt 0 ] || parts=(style sanitizers fuzz toolchains package shared)
 for part in "${parts[@]}"; do
   case $part in
-    style | sanitizers | fuzz | toolchains | shared) "$part" ;;
+    style | sanitizers | fuzz | toolchains | package | shared) "$part" ;;
     *) sed -n 2,5p "$0" >&2; exit 2 ;;
   esac
 done

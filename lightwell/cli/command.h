@@ -23,5 +23,6 @@ CLI::App* add_render(CLI::App&, Console&, std::function<int()>&);
 CLI::App* add_probe(CLI::App&, Console&, std::function<int()>&);
 CLI::App* add_export(CLI::App&, Console&, std::function<int()>&);
 CLI::App* add_diff(CLI::App&, Console&, std::function<int()>&);
+CLI::App* add_help(CLI::App&, Console&, std::function<int()>&);
 
 }  // namespace lightwell

@@ -4,7 +4,6 @@
 #include "lightwell/bake/contained.h"
 
 namespace lightwell {
-namespace {
 
 Result<LightField> light_of_pack(const OpenedPack& pack, const LightLevel& level) {
   if (pack.grids().empty()) return fail("", "holds no light");
@@ -16,8 +15,6 @@ Result<LightField> light_of_pack(const OpenedPack& pack, const LightLevel& level
   }
   return LightField(std::move(layers));
 }
-
-}  // namespace
 
 LuminaireSet contained_in_grids(const OpenedScene& scene, const World& world, bool environment) {
   if (scene.pack) return contained_luminaires(scene.pack->lamps(), contents_of(scene.pack->grids()), world);

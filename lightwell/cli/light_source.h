@@ -15,6 +15,9 @@ LuminaireSet contained_in_grids(const OpenedScene& scene, const World& world, bo
 /// Fails when a pack is given an environment that it was not baked with: its bounced light would be missing.
 Result<void> check_environment(const OpenedScene& scene);
 
+/// The grids of a pack at a level.
+Result<LightField> light_of_pack(const OpenedPack& pack, const LightLevel& level);
+
 /// The baked light of a scene: the grids of its pack at a level or, without a pack, one grid baked with `options`,
 /// including the direct light of the `contained` luminaires, for each of the groups.
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,

@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
     command->add_flag("--json", console.json, "Print one JSON object");
     command->add_flag("--quiet", console.quiet, "No progress and no warnings");
   }
+  add_help(program, console, chosen)->group("Commands");
 
   try {
     program.parse(argc, argv);

@@ -94,14 +94,14 @@ std::string one_of(const std::vector<std::string>& names) {
 }
 
 CLI::Option* add_output(CLI::App& command, std::string& path, const std::vector<std::string>& endings,
-                        const std::string& help) {
+                        const std::string& help, const std::string& name) {
   const auto take = [&path, endings](const std::string& text) -> Result<void> {
     const bool known = std::ranges::any_of(endings, [&](const std::string& ending) { return text.ends_with(ending); });
     if (!known && text != "-" && !is_device(text)) return fail(text, "the name does not end in " + one_of(endings));
     path = text;
     return {};
   };
-  return add_text(command, "-o,--output", "FILE", take, help);
+  return add_text(command, name, "FILE", take, help);
 }
 
 Result<void> check_output(const std::string& output, const std::vector<std::string>& inputs) {

@@ -106,10 +106,11 @@ CLI::Option* add_row_choice(
   return add_choice<const Row*>(command, name, value, choices, help);
 }
 
-/// Adds -o, the file that the command writes. Its name must end in one of `endings`, the first of which is also the
-/// format for stdout ("-") and devices. check_output, called when the command begins, tests whether it can be written.
+/// Adds -o, or the option of another name, the file that the command writes. Its name must end in one of `endings`, the
+/// first of which is also the format for stdout ("-") and devices. check_output, called when the command begins, tests
+/// whether it can be written.
 CLI::Option* add_output(CLI::App& command, std::string& path, const std::vector<std::string>& endings,
-                        const std::string& help);
+                        const std::string& help, const std::string& name = "-o,--output");
 
 /// Fails when `output` cannot be written, or is one of the files that the command reads, under this name or another.
 /// Called before any work.

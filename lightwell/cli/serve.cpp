@@ -18,6 +18,13 @@ void stop_server(int) {
   if (running != nullptr) running->stop();
 }
 
+// Where the page is installed, and a build links it: in the folder share beside the program's own.
+std::filesystem::path page_folder() {
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::canonical("/proc/self/exe", unknown);
+  return program.parent_path().parent_path() / "share" / "lightwell" / "page";
+}
+
 // Prints the URL: a sentence on a terminal, a line of JSON for a program.
 void announce(const std::string& url, const Console& console) {
   if (!console.json && isatty(STDOUT_FILENO) != 0)
@@ -55,7 +62,7 @@ CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& c
     bool open = false;
   };
   auto options = std::make_shared<Options>();
-  options->server.page = LIGHTWELL_PAGE;
+  options->server.page = page_folder();
   CLI::App* command = program.add_subcommand("serve", "HTTP server for packs, with the page");
   command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")
       ->required()
@@ -64,7 +71,9 @@ CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& c
       ->capture_default_str()
       ->type_name("ADDRESS");
   add_whole(*command, "--port", options->server.port, {0, 65535}, "Port; 0 for any free one");
-  command->add_option("--page", options->server.page, "Folder of the page")->type_name("FOLDER");
+  command
+      ->add_option("--page", options->server.page, "Folder of the page (default: the one that came with the program)")
+      ->type_name("FOLDER");
   add_whole(*command, "--max-connections", options->server.max_connections, {1, 1e6},
             "Open at once; beyond it idle and slow ones are closed for new ones");
   add_whole(*command, "--connections-per-address", options->server.connections_per_address, {0, 1e6},

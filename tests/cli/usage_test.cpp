@@ -48,6 +48,9 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"scenes box", "go together"},
            {"scenes furnace -o " + path("x.obj"), "x.obj: the name does not end in .glb"},
            {"export a.glb -o " + path("x.xyz"), "does not end in .glb or .ply"},
+           {"export a.glb", "export: -o FILE or --light FILE: one of them is needed"},
+           {"export a.glb --light " + path("x.exr"), "does not end in .json or .ktx2"},
+           {"help --man --completion", "one of them at a time"},
            {"render box-small -o " + path("x.jpg"), "does not end in .png, .exr or .pfm"},
            {"render box-small --size 0x5 -o " + path("x.png"), "0: is not a whole number from 1 to 16384"},
            {"render box-small --size 5 -o " + path("x.png"), "--size: 5: is not WIDTHxHEIGHT"},
@@ -71,7 +74,7 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
 
 TEST_F(Commands, HelpIsForPeople) {
   for (const char* command :
-       {"", "scenes", "bake", "info", "verify", "serve", "fetch", "render", "probe", "export", "diff"}) {
+       {"", "scenes", "bake", "info", "verify", "serve", "fetch", "render", "probe", "export", "diff", "help"}) {
     const std::string help = run(std::string(command) + " --help").out;
     for (const char* jargon : {"INT", "FLOAT", "ENUM", "TEXT", "->", "NONNEGATIVE"})
       EXPECT_EQ(help.find(jargon), std::string::npos) << help;
