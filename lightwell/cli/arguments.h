@@ -22,6 +22,7 @@ struct SceneOptions {
   const EstimatorKind* method = &estimators().front();
   GroupedBy groups = GroupedBy::nothing;  ///< of light
   int threads = 0;                        ///< 0: all processors
+  uint64_t memory_limit = 0;              ///< bytes; 0: what the machine has
   static constexpr int regular = 32;      ///< nodes of a regular grid where nothing is said
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
@@ -32,7 +33,8 @@ struct SceneOptions {
   }
 };
 
-/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --seed and --threads. `help`
+/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --seed, --threads and
+/// --memory-limit. `help`
 /// says what the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 
