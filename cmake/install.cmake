@@ -15,6 +15,7 @@ endforeach()
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Lightwell)
 file(CONFIGURE OUTPUT LightwellConfig.cmake @ONLY CONTENT [[
 set(LIGHTWELL_CLIENT_ONLY @LIGHTWELL_CLIENT_ONLY@)
+set(LIGHTWELL_ASSIMP @LIGHTWELL_ASSIMP@)
 include(${CMAKE_CURRENT_LIST_DIR}/dependencies.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/LightwellTargets.cmake)
 ]])

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # What `./run test --all` adds: format and lint, every test under sanitizers (built by Clang) with ten times the seeds, ten
-# minutes of fuzzing, the npm package in slow toolchains, the Debian package, and everything in ../shared/data baked, verified
-# and streamed. Expects build/release.
-#   all.sh [PART...]   one or several of: style sanitizers fuzz toolchains package shared; all by default
+# minutes of fuzzing, the server under faults, the npm package in slow toolchains, the Debian package, and everything in
+# ../shared/data baked, verified and streamed. Expects build/release. FUZZ_SECONDS and SOAK_SECONDS (120; 600 for a thorough look) say
+# how long.
+#   all.sh [PART...]   one or several of: style sanitizers fuzz soak toolchains package shared; all by default
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-600}
+soak_seconds=${SOAK_SECONDS:-120}
 
 say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
 
@@ -62,6 +64,14 @@ fuzz() {
     xargs -P 2 -I NAME bash -c "fuzz_target NAME $((2 * fuzz_seconds / ${#names[@]}))" >&2
 }
 
+soak() {
+  say "Serving under faults for $soak_seconds seconds"
+  mkdir -p build/soak
+  # Some megabytes, more than the system keeps for a connection.
+  build/release/bin/lightwell bake box --grid 4 --quiet -o build/soak/box.lw.glb >/dev/null
+  tests/server_soak.py build/release/bin/lightwell build/soak/box.lw.glb --seconds "$soak_seconds" >&2
+}
+
 toolchains() {
   say "Running the browser's slow tests"
   node --test --test-concurrency=1 tests/e2e/slow/*.test.mjs >&2
@@ -78,10 +88,10 @@ shared() {
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(style sanitizers fuzz toolchains package shared)
+[ $# -gt 0 ] || parts=(style sanitizers fuzz soak toolchains package shared)
 for part in "${parts[@]}"; do
   case $part in
-    style | sanitizers | fuzz | toolchains | package | shared) "$part" ;;
-    *) sed -n 2,5p "$0" >&2; exit 2 ;;
+    style | sanitizers | fuzz | soak | toolchains | package | shared) "$part" ;;
+    *) sed -n 2,6p "$0" >&2; exit 2 ;;
   esac
 done

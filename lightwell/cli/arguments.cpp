@@ -86,6 +86,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   add_image_limit_option(command, options.import.images);
   add_whole(command, "--seed", options.import.seed, seed_range, "Seed of everything random");
   add_whole(command, "--threads", options.threads, {0, 1024}, "Threads, 0 for all processors");
+  add_count(command, "--memory-limit", options.memory_limit,
+            "Bytes of memory, such as 500M or 8G: what needs more is refused (default: what the machine has)",
+            "a count, such as 500M or 8G");
 }
 
 void add_level_option(CLI::App& command, MeshLevel& level, const std::string& help) {

@@ -22,6 +22,7 @@ struct SceneOptions {
   const EstimatorKind* method = &estimators().front();
   GroupedBy groups = GroupedBy::nothing;  ///< of light
   int threads = 0;                        ///< 0: all processors
+  uint64_t memory_limit = 0;              ///< bytes; 0: what the machine has
   static constexpr int regular = 32;      ///< nodes of a regular grid where nothing is said
 
   /// The options for baking its light grid; `contained` as in EstimatorOptions.
@@ -33,8 +34,7 @@ struct SceneOptions {
 };
 
 /// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --lamp-units,
-/// --max-image-megapixels,
-/// --seed and --threads. `help` says what the scene may be.
+/// --max-image-megapixels, --seed, --threads and --memory-limit. `help` says what the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 
 /// Adds --level, the share of a pack's faces, or --fill, how missing nodes of its light grid are filled.

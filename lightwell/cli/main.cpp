@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "lightwell/cli/command.h"
+#include "lightwell/cli/memory_limit.h"
 
 namespace {
 
@@ -35,9 +36,9 @@ int run(const std::function<int()>& command, const lightwell::Console& console) 
   try {
     return command();
   } catch (const std::bad_alloc&) {
-    return console.fail({"", "", "the memory is not enough for this"});
+    return console.fail({"", "", lightwell::memory_has_ended});
   } catch (const std::length_error&) {
-    return console.fail({"", "", "the memory is not enough for this"});
+    return console.fail({"", "", lightwell::memory_has_ended});
   } catch (const std::exception& exception) {
     return console.fail({"", "", exception.what()});
   }
@@ -48,6 +49,7 @@ int run(const std::function<int()>& command, const lightwell::Console& console) 
 int main(int argc, char** argv) {
   using namespace lightwell;
 
+  prepare_for_the_end_of_memory();
   CLI::App program("Bakes the indirect light of 3D scenes and streams light and geometry to browsers.", "lightwell");
   program.set_version_flag("--version", LIGHTWELL_VERSION);
   program.require_subcommand(0, 1);

@@ -5,6 +5,7 @@
 
 #include "lightwell/bake/sky_dome.h"
 #include "lightwell/bake/turned.h"
+#include "lightwell/cli/memory_limit.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
@@ -55,10 +56,12 @@ Result<void> refuse_conventions(const std::string& path, const ImportOptions& as
 
 Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level) {
   const std::string& path = options.path;
+  if (options.memory_limit > 0) limit_memory(options.memory_limit);
   const bool pack = is_pack_file(path);
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
   auto opened = pack ? open_pack(path, level, options.import.images, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
+  LW_CHECK(check_memory(opened->scene, options.memory_limit > 0 ? options.memory_limit : machine_memory()));
   if (!options.environment.empty()) {
     LW_TRY(surroundings, read_environment(options.environment, options.import.images));
     if (!surroundings.map) note_sky(opened->scene, surroundings.radiance);

@@ -3,8 +3,11 @@
 
 #include <embree3/rtcore.h>
 
+#include <set>
+
 #include "lightwell/base/assert.h"
 #include "lightwell/scene/finish_mesh.h"
+#include "lightwell/trace/coincident_faces.h"
 #include "lightwell/trace/focus.h"
 #include "lightwell/trace/normal_map.h"
 #include "lightwell/trace/shading.h"
@@ -36,6 +39,12 @@ T interpolated(const std::vector<T>& values, const Face& face, float u, float v)
 }
 
 }  // namespace
+
+/// What has been placed so far, to leave out what lies exactly on it.
+struct TraceScene::Placing {
+  CoincidentFaces faces;
+  std::set<std::pair<int, std::array<float, 12>>> instances;  // of those that Embree places
+};
 
 /// A ray's context: the salt by which chance decides which partly transparent surfaces it passes, and the tints of
 /// those that it passed. Embree finds them in any order, also behind the one that stops the ray.
@@ -90,10 +99,18 @@ Result<void> TraceScene::commit(int threads) {
   rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
   for (const Instance& instance : scene_.instances) uses_[static_cast<size_t>(instance.primitive)]++;
   LW_CHECK(check_extent());
-  for (uint32_t i = 0; i < placed_.size(); i++) place(i);
+  {
+    Placing placing;
+    for (uint32_t i = 0; i < placed_.size(); i++) place(i, placing);
+  }
   rtcCommitScene(embree_);
-  if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+  if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) {
+    // Releasing what Embree could not complete, such as its threads, ends the process.
+    device_ = nullptr;
+    embree_ = nullptr;
+    shared_.clear();
     return fail(ErrorKind::limit, "Embree", "not enough memory for the scene's triangles");
+  }
 
   RTCBounds box;
   rtcGetSceneBounds(embree_, &box);
@@ -126,7 +143,7 @@ Result<void> TraceScene::check_extent() const {
   return {};
 }
 
-void TraceScene::place(uint32_t index) {
+void TraceScene::place(uint32_t index, Placing& placing) {
   const Instance& instance = scene_.instances[index];
   const Primitive& primitive = scene_.primitives[static_cast<size_t>(instance.primitive)];
   if (primitive.mesh.faces.empty()) return;
@@ -140,14 +157,15 @@ void TraceScene::place(uint32_t index) {
   const size_t copies = static_cast<size_t>(uses_[static_cast<size_t>(instance.primitive)]);
   RTCGeometry geometry;
   if (copies == 1 || copies * primitive.mesh.faces.size() <= max_copied_faces) {
-    geometry = new_geometry(placed, &instance.to_scene);
+    geometry = new_geometry(placed, &instance.to_scene, placing.faces);
   } else {
-    geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, shared_scene(instance.primitive, placed));
     std::array<float, 12> columns;
     const Transform& t = instance.to_scene;
     const std::array<Vec3d, 4> axes{t.x, t.y, t.z, t.t};
     for (size_t i = 0; i < columns.size(); i++) columns[i] = static_cast<float>(axes[i / 3][static_cast<int>(i % 3)]);
+    if (!placing.instances.emplace(instance.primitive, columns).second && !lets_light_pass(*placed.material)) return;
+    geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, shared_scene(instance.primitive, placed));
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
     rtcCommitGeometry(geometry);
   }
@@ -156,18 +174,17 @@ void TraceScene::place(uint32_t index) {
 }
 
 /// The triangles of an instance: in scene space with `to_scene`, otherwise in the primitive's own.
-RTCGeometryTy* TraceScene::new_geometry(Placed& placed, const Transform* to_scene) {
+RTCGeometryTy* TraceScene::new_geometry(Placed& placed, const Transform* to_scene, CoincidentFaces& others) {
   const Mesh& mesh = *placed.mesh;
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                 sizeof(Vec3f), mesh.positions.size()));
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.faces.data(), 0, sizeof(Face),
-                             mesh.faces.size());
   if (positions) {
     for (size_t i = 0; i < mesh.positions.size(); i++) {
       const Vec3f p = to_scene ? to_scene->point(mesh.positions[i]) : mesh.positions[i];
       for (size_t axis = 0; axis < 3; axis++) positions[3 * i + axis] = p.e[axis];
     }
+    set_faces(geometry, placed, positions, others);
   }
   if (to_scene) placed.scene_positions = positions;
   if (lets_light_pass(*placed.material)) {
@@ -179,12 +196,39 @@ RTCGeometryTy* TraceScene::new_geometry(Placed& placed, const Transform* to_scen
   return geometry;
 }
 
+/// Gives Embree the mesh's faces; those that others hide get corners that do not exist, whereupon it leaves them out.
+void TraceScene::set_faces(RTCGeometryTy* geometry, const Placed& placed, const float* positions,
+                           CoincidentFaces& others) {
+  const std::vector<Face>& faces = placed.mesh->faces;
+  const FaceLayer layer{.opaque = !lets_light_pass(*placed.material),
+                        .shines = placed.material->emission != Vec3f{},
+                        .mirrored = placed.mirrored};
+  const auto corner = [&](uint32_t vertex) {
+    const float* p = positions + 3 * size_t(vertex);
+    return Vec3f{{p[0], p[1], p[2]}};
+  };
+  std::vector<uint32_t> hidden;
+  for (uint32_t i = 0; i < faces.size(); i++)
+    if (others.hides({corner(faces[i][0]), corner(faces[i][1]), corner(faces[i][2])}, layer)) hidden.push_back(i);
+  if (hidden.empty()) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, faces.data(), 0, sizeof(Face),
+                               faces.size());
+    return;
+  }
+  auto* own = static_cast<Face*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(Face), faces.size()));
+  if (!own) return;
+  std::ranges::copy(faces, own);
+  for (const uint32_t i : hidden) own[i] = {~0u, ~0u, ~0u};
+}
+
 RTCSceneTy* TraceScene::shared_scene(int primitive, Placed& placed) {
   RTCSceneTy*& shared = shared_[static_cast<size_t>(primitive)];
   if (shared) return shared;
   shared = rtcNewScene(device_);
   rtcSetSceneFlags(shared, RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = new_geometry(placed, nullptr);
+  CoincidentFaces own;
+  RTCGeometry geometry = new_geometry(placed, nullptr, own);
   rtcAttachGeometry(shared, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(shared);

@@ -17,6 +17,8 @@ struct RTCHit;
 
 namespace lightwell {
 
+class CoincidentFaces;
+
 /// A half-line from `origin` along a unit direction, up to `far` metres.
 struct Ray {
   Vec3f origin{};
@@ -109,12 +111,14 @@ class TraceScene {
     Surface surface;
   };
   struct Context;
+  struct Placing;
 
   explicit TraceScene(const Scene& scene);
   Result<void> commit(int threads);
   Result<void> check_extent() const;
-  void place(uint32_t instance);
-  RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene);
+  void place(uint32_t instance, Placing& placing);
+  RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene, CoincidentFaces& others);
+  static void set_faces(RTCGeometryTy* geometry, const Placed& placed, const float* positions, CoincidentFaces& others);
   RTCSceneTy* shared_scene(int primitive, Placed& placed);
   void mark_uniform(Placed& placed) const;
   std::array<Vec2f, 2> texcoords(const Mesh& mesh, const Face& face, float u, float v) const;
