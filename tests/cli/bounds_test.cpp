@@ -63,16 +63,16 @@ class Bounds : public Commands {
   }
 };
 
-// Four times as many boxes in linear time are four times the work, in quadratic time sixteen times; caches and the
-// machine's other work are allowed half as much again.
+// Four times as many boxes in linear time are four times the work, in quadratic time sixteen times: nine tells the two
+// apart whatever else the machine does.
 TEST_F(Bounds, PartsInOnePlaceAreBakedInLinearTime) {
   const double few = seconds_of_bake(boxes(1000, true)), many = seconds_of_bake(boxes(4000, true));
-  EXPECT_LT(many, 6 * few);
+  EXPECT_LT(many, 9 * few);
 }
 
 TEST_F(Bounds, PartsSideBySideAreBakedInLinearTime) {
   const double few = seconds_of_bake(boxes(1000, false)), many = seconds_of_bake(boxes(4000, false));
-  EXPECT_LT(many, 6 * few);
+  EXPECT_LT(many, 9 * few);
 }
 
 TEST_F(Bounds, WhatCannotFitIsRefusedBeforehand) {
