@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "lightwell/light/record.h"
+
 namespace lightwell {
 namespace {
 
@@ -43,12 +45,10 @@ void solve(std::array<std::array<float, count>, count>& matrix, std::array<Vec3f
 }
 
 void keep_within_bounds(Moments& moments) {
-  constexpr std::array<std::array<size_t, 2>, 3> pairs{{{0, 1}, {0, 2}, {1, 2}}};
   for (size_t d = 0; d < 6; d++) moments.m[d] = max(moments.m[d], Vec3f{});
-  for (size_t i = 0; i < pairs.size(); i++) {
-    const auto [a, b] = pairs[i];
-    const Vec3f bound = (moments.m[2 * a] + moments.m[2 * a + 1] + moments.m[2 * b] + moments.m[2 * b + 1]) / 2.0f;
-    moments.m[6 + i] = max(-bound, min(moments.m[6 + i], bound));
+  for (size_t pair = 0; pair < 3; pair++) {
+    const Vec3f bound = mixed_bound(moments, pair);
+    moments.m[6 + pair] = max(-bound, min(moments.m[6 + pair], bound));
   }
 }
 

@@ -68,6 +68,17 @@ class Commands : public testing::Test {
     EXPECT_EQ(baked.status, 0) << baked.err;
     return pack;
   }
+  /// What `probe` finds at points, with their columns' heads in the first line: red, green and blue of each.
+  std::vector<double> probed(const std::string& arguments, const std::string& points) const {
+    write("points.csv", points);
+    const Outcome found = run("probe " + arguments + " --json --quiet --points " + path("points.csv"));
+    EXPECT_EQ(found.status, 0) << found.err;
+    std::vector<double> values;
+    const json parsed = json::parse(found.out);
+    for (const json& point : parsed["points"])
+      for (const json& value : point["rgb"]) values.push_back(value);
+    return values;
+  }
 
  private:
   fs::path folder_;

@@ -347,22 +347,14 @@ TEST_F(Commands, GroupsOfLightAreSwitched) {
     bin += index;
   for (size_t i = 96; i < bin.size(); i += 3) std::swap(bin[i], bin[i + 1]);  // seen from inside
   write("room.bin", bin);
-  write("points.csv", "x,y,z,nx,ny,nz\n2,1,2,0,1,0\n0.5,2,0.5,1,0,0\n");
+  const std::string points = "x,y,z,nx,ny,nz\n2,1,2,0,1,0\n0.5,2,0.5,1,0,0\n";
   const std::string pack = path("groups.lw.glb"), options = " --photons 50k --grid 6 --quiet";
   ASSERT_EQ(run("bake " + path("lamps.gltf") + " --groups name -o " + pack + options).status, 0);
   EXPECT_EQ(run("verify " + pack).status, 0);
-  const auto probed = [&](const std::string& of) {
-    const Outcome found = run("probe " + of + " --json --quiet --points " + path("points.csv"));
-    EXPECT_EQ(found.status, 0) << found.err;
-    std::vector<double> values;
-    const json parsed = json::parse(found.out);
-    for (const json& point : parsed["points"])
-      for (const json& value : point["rgb"]) values.push_back(value);
-    return values;
-  };
   for (const std::string ivg : {"", " --integrator ivg"}) {
-    const std::vector<double> all = probed(pack + ivg), red = probed(pack + " --light-group Blue=0" + ivg),
-                              halved = probed(pack + " --light-group Blue=0 --light-group Red=0.5,1,1" + ivg);
+    const std::vector<double> all = probed(pack + ivg, points),
+                              red = probed(pack + " --light-group Blue=0" + ivg, points),
+                              halved = probed(pack + " --light-group Blue=0 --light-group Red=0.5,1,1" + ivg, points);
     for (size_t i = 0; i < all.size(); i++) {
       // Rays and nodes are the same ones: no noise.
       EXPECT_NEAR(red[i], i % 3 == 0 ? all[i] : 0, 1e-5 * all[0]) << ivg;

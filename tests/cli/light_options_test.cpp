@@ -12,14 +12,8 @@ class LightOptions : public Commands {
  protected:
   /// The irradiance that a pack's light has at a few places of box-small, 2 m wide.
   std::vector<double> light_of(const std::string& pack) const {
-    write("points.csv", "x,y,z,nx,ny,nz\n0.6,0.3,0.6,0,1,0\n-0.5,0.4,0.5,0.6,0.8,0\n0.2,1.5,-0.3,0,0.6,-0.8\n");
-    const Outcome found = run("probe " + pack + " --integrator ivg --json --quiet --points " + path("points.csv"));
-    EXPECT_EQ(found.status, 0) << found.err;
-    std::vector<double> values;
-    const json parsed = json::parse(found.out);
-    for (const json& point : parsed["points"])
-      for (const json& value : point["rgb"]) values.push_back(value);
-    return values;
+    return probed(pack + " --integrator ivg",
+                  "x,y,z,nx,ny,nz\n0.6,0.3,0.6,0,1,0\n-0.5,0.4,0.5,0.6,0.8,0\n0.2,1.5,-0.3,0,0.6,-0.8\n");
   }
 };
 
