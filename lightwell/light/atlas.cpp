@@ -50,20 +50,24 @@ struct BrickLayout {
 
 // On the unit sphere a x^2 + b y^2 + c z^2 = (a+b)/2 + (c - (a+b)/2) z^2 + (a-b)/2 (x^2 - y^2).
 std::array<Vec3f, 9> spherical_harmonics(const Moments& moments) {
-  const std::array<Vec3f, 9>& m = moments.m;
-  const auto linear = [&](size_t axis) { return (m[2 * axis] - m[2 * axis + 1]) * (0.5f / band1); };
-  const auto square = [&](size_t axis) { return (m[2 * axis] + m[2 * axis + 1]) * 0.5f; };
-  const Vec3f level = (square(0) + square(1)) * 0.5f;
-  const Vec3f zonal = (square(2) - level) / zonal_square;
-  return {(level + zonal * zonal_constant) / band0,
-          linear(1),
-          linear(2),
-          linear(0),
-          m[6] * (0.5f / band2),
-          m[8] * (0.5f / band2),
-          zonal,
-          m[7] * (0.5f / band2),
-          (square(0) - square(1)) * (0.5f / difference)};
+  std::array<Vec3f, 9> harmonics;
+  for (int c = 0; c < 3; c++) {
+    const auto m = [&](size_t i) { return moments.m[i][c]; };
+    const auto linear = [&](size_t axis) { return (m(2 * axis) - m(2 * axis + 1)) * (0.5f / band1); };
+    const auto square = [&](size_t axis) { return (m(2 * axis) + m(2 * axis + 1)) * 0.5f; };
+    const float x = square(0), y = square(1), level = (x + y) * 0.5f, zonal = (square(2) - level) / zonal_square;
+    const std::array<float, 9> colour{(level + zonal * zonal_constant) / band0,
+                                      linear(1),
+                                      linear(2),
+                                      linear(0),
+                                      m(6) * (0.5f / band2),
+                                      m(8) * (0.5f / band2),
+                                      zonal,
+                                      m(7) * (0.5f / band2),
+                                      (x - y) * (0.5f / difference)};
+    for (size_t i = 0; i < 9; i++) harmonics[i][c] = colour[i];
+  }
+  return harmonics;
 }
 
 LightAtlas::LightAtlas(const GridShape& shape, float normal_offset, float scale, const BrickTree& tree)

@@ -92,6 +92,8 @@ Result<void> LatticeDecoder::append(Bytes payload) {
   auto coder = std::make_unique<LatticeCoder>(*coder_);
   ModelReader reader(payload);
   for (size_t i = base_; i < base_ + bundle.base; i++) {
+    constexpr size_t ahead = 3;
+    field_.prefetch(i + ahead);
     const LatticeNode& place = field_.order()[i];
     coder->code(reader, field_.record(), field_.node(place.node), field_.expect(place));
   }

@@ -50,13 +50,13 @@ class LatticeExpectation {
     }
     valid_ = 2 * valid >= parents.all().size();
     agreement_ = valid == 0 ? 0 : valid == parents.all().size() ? 2 : 1;
-    if (used_count_ > 0) average(count);
+    average(count);
   }
 
   /// The number at a place, when those before it are known.
   int32_t number(size_t place, std::span<const int32_t> before) const {
     const RecordNumber& number = record_.numbers()[place];
-    if (number.expected == RecordNumber::Expected::mean || used_count_ == 0) return means_[place];
+    if (number.expected == RecordNumber::Expected::mean) return means_[place];
     if (number.expected == RecordNumber::Expected::largest) return largest(place);
     return scaled(number, place, before[number.exponent]);
   }
@@ -70,13 +70,14 @@ class LatticeExpectation {
 
  private:
   void average(size_t count) {
-    std::array<int64_t, LatticeRecord::most_numbers> sum{};
-    for (size_t p = 0; p < used_count_; p++)
+    std::array<int64_t, LatticeRecord::most_numbers> sum;
+    for (size_t i = 0; i < count; i++) sum[i] = used_[0][i];
+    for (size_t p = 1; p < used_count_; p++)
       for (size_t i = 0; i < count; i++) sum[i] += used_[p][i];
     const auto parents = static_cast<int64_t>(used_count_);
     // Rounded down after a half is added, below zero too. Most nodes have two or four parents: then it is a shift.
     const int shift = std::bit_width(used_count_);
-    if (std::has_single_bit(used_count_)) {
+    if ((used_count_ & (used_count_ - 1)) == 0) {
       for (size_t i = 0; i < count; i++) means_[i] = static_cast<int32_t>((2 * sum[i] + parents) >> shift);
       return;
     }
@@ -99,9 +100,9 @@ class LatticeExpectation {
   }
 
   const LatticeRecord& record_;
-  std::array<const int32_t*, 6> used_{};
+  std::array<const int32_t*, 6> used_;  // so many
   size_t used_count_ = 0;
-  std::array<int32_t, LatticeRecord::most_numbers> means_{};
+  std::array<int32_t, LatticeRecord::most_numbers> means_;  // of the record's
   bool valid_ = true;
   size_t agreement_ = 2;
 };

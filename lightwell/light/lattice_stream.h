@@ -80,6 +80,14 @@ class LatticeField {
   const Links& links() const { return links_; }
 
   LatticeExpectation expect(const LatticeNode& node) const { return {*record_, parents(values_, node)}; }
+  /// Asks the memory for what expect() will need of a node some places on in the order, which scatters nodes: waiting
+  /// for it took a fifth of decoding. (GCC takes a function that only prefetches for one that does nothing, and leaves
+  /// out its calls, unless it must inline it.)
+  [[gnu::always_inline]] void prefetch(size_t place) const {
+    if (place >= order_.size()) return;
+    const LatticeNode& node = order_[place];
+    for (size_t i = 0; i < node.parent_count; i++) values_.prefetch(node.parents[i]);
+  }
   /// The numbers of the grid's nodes when so many are known: those of the others lie between them.
   LatticeNumbers values(size_t known) const;
   /// Sets the points of a brick in turn: those that it shares with bricks before it, which must be set, are taken over,
