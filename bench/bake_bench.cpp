@@ -2,9 +2,12 @@
 //
 // bake_bench FOLDER: what the estimators err by for their processor time, in the rooms of a folder whose irradiance
 // another renderer has measured: ROOM.glb, ROOM.free.indirect.csv and ROOM.surf.indirect.csv.
+// bake_bench --nodes SCENE...: what regular grids for a target of 3 % err by at their nodes.
 #include <cstdio>
 #include <ctime>
 #include <fstream>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -13,6 +16,7 @@
 #include "lightwell/light/lattice_stream.h"
 #include "lightwell/light/push_pull.h"
 #include "lightwell/light/stream.h"
+#include "lightwell/render/probe.h"
 #include "lightwell/scene/scene.h"
 #include "lightwell/trace/sampling.h"
 
@@ -95,31 +99,87 @@ void print_prefixes(const char* room, const LightGrid& grid) {
   std::fflush(stdout);
 }
 
+/// A scene and its world, which refers to it.
+struct Room {
+  std::unique_ptr<const Scene> scene;
+  std::unique_ptr<const World> world;
+};
+
+/// Nothing, and said, when the file cannot be read.
+std::optional<Room> load_room(const std::string& path) {
+  Report report;
+  auto scene = load_scene(path, {}, report);
+  if (!scene) return std::fprintf(stderr, "%s\n", scene.error().message().c_str()), std::nullopt;
+  Room room{std::make_unique<const Scene>(std::move(*scene)), nullptr};
+  auto world = World::build(*room.scene);
+  if (!world) return std::fprintf(stderr, "%s\n", world.error().message().c_str()), std::nullopt;
+  room.world = std::move(*world);
+  return room;
+}
+
+/// What a regular grid for a target of 3 % errs by at its nodes themselves: at 400 valid ones, each for a direction of
+/// its own, against the path tracer.
+bool at_nodes(const std::string& path) {
+  constexpr size_t tested = 400;
+  const std::optional<Room> room = load_room(path);
+  if (!room) return false;
+  LightBakeOptions options;
+  options.nodes = nodes;
+  options.target_error = 0.03f;
+  Progress silent;
+  LightBakeStatistics statistics;
+  const std::clock_t start = std::clock();
+  const auto grids = bake_light(*room->world, options, silent, statistics);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  if (!grids) return std::fprintf(stderr, "%s\n", grids.error().message().c_str()), false;
+  const LightGrid& grid = grids->front().grid;
+  std::vector<ProbePoint> points;
+  std::vector<Measured> found;
+  for (Random random(1, 0); points.size() < tested;) {
+    const size_t node = random.below(static_cast<uint32_t>(grid.moments.size()));
+    Vec3f direction{};
+    direction[static_cast<int>(points.size() % 3)] = points.size() % 2 == 0 ? 1.0f : -1.0f;
+    const Vec3i at = grid.shape.node(node), from_end = grid.shape.cells() - at;
+    if (!grid.valid[node] || at[0] * at[1] * at[2] * from_end[0] * from_end[1] * from_end[2] == 0) continue;
+    points.push_back({grid.shape.position(at), direction});
+    found.push_back({points.back().position, direction, grid.moments[node].irradiance(direction)});
+  }
+  const auto values = probe(*room->world, points, {.samples = 16384}, silent);
+  if (!values) return false;
+  double squares = 0, sum = 0;
+  for (size_t i = 0; i < tested; i++) {
+    const Vec3f off = found[i].irradiance - (*values)[i].irradiance;
+    squares += static_cast<double>(dot(off, off));
+    sum += static_cast<double>((*values)[i].irradiance[0] + (*values)[i].irradiance[1] + (*values)[i].irradiance[2]);
+  }
+  const double count = 3 * static_cast<double>(tested);
+  std::printf("| %s | %zu | %.1f | %.1f |\n", path.substr(path.rfind('/') + 1).c_str(), grid.moments.size(), seconds,
+              100 * std::sqrt(squares / count) / (sum / count));
+  std::fflush(stdout);
+  return true;
+}
+
 struct Candidate {
   const EstimatorKind* kind;
   uint64_t photons;
 };
 
 bool prefixes(const std::string& folder, const char* room) {
-  Report report;
-  const auto scene = load_scene(folder + '/' + room + ".glb", {}, report);
-  const auto world = scene ? World::build(*scene) : fail(scene.error());
-  if (!world) return std::fprintf(stderr, "%s\n", world.error().message().c_str()), false;
+  const std::optional<Room> loaded = load_room(folder + '/' + room + ".glb");
+  if (!loaded) return false;
   LightBakeOptions options;
   options.nodes = nodes;
   Progress silent;
   LightBakeStatistics statistics;
-  const auto grids = bake_light(**world, options, silent, statistics);
+  const auto grids = bake_light(*loaded->world, options, silent, statistics);
   if (!grids) return std::fprintf(stderr, "%s\n", grids.error().message().c_str()), false;
   print_prefixes(room, grids->front().grid);
   return true;
 }
 
 bool compare(const std::string& folder, const char* room, const std::vector<Candidate>& candidates) {
-  Report report;
-  const auto scene = load_scene(folder + '/' + room + ".glb", {}, report);
-  const auto world = scene ? World::build(*scene) : fail(scene.error());
-  if (!world) return std::fprintf(stderr, "%s\n", world.error().message().c_str()), false;
+  const std::optional<Room> loaded = load_room(folder + '/' + room + ".glb");
+  if (!loaded) return false;
   const auto free = read_points(folder + '/' + room + ".free.indirect.csv");
   const auto surfaces = read_points(folder + '/' + room + ".surf.indirect.csv");
   for (const Candidate& candidate : candidates) {
@@ -130,7 +190,7 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
     Progress silent;
     LightBakeStatistics statistics;
     const std::clock_t start = std::clock();
-    auto grids = bake_light(**world, options, silent, statistics);
+    auto grids = bake_light(*loaded->world, options, silent, statistics);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     if (!grids) return std::fprintf(stderr, "%s\n", grids.error().message().c_str()), false;
     const LightField field(layers_of(std::move(*grids)));
@@ -148,7 +208,14 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
 
 int main(int count, char** arguments) {
   using namespace lightwell;
-  if (count < 2) return std::fprintf(stderr, "usage: bake_bench [--prefixes] FOLDER\n"), 1;
+  if (count < 2)
+    return std::fprintf(stderr, "usage: bake_bench [--prefixes] FOLDER, or bake_bench --nodes SCENE...\n"), 1;
+  if (std::string(arguments[1]) == "--nodes") {
+    std::printf("| scene | nodes | processor seconds | error at the nodes %% |\n|---|---|---|---|\n");
+    for (int i = 2; i < count; i++)
+      if (!at_nodes(arguments[i])) return 1;
+    return 0;
+  }
   const EstimatorKind printed{"faces, as printed", "", false, make_printed_face_estimator};
   std::vector<Candidate> candidates;
   for (const EstimatorKind& kind : estimators())

@@ -92,6 +92,7 @@ try {
   for (const scene of scenes.length > 0 ? scenes : SCENES) {
     const [pack, coarse] = ['pack.lw.glb', 'coarse.glb'].map((name) => join(folder, name));
     bakeWithLightwell(scene, pack, '--grid', '32');
+    bakeWithLightwell(scene, pack, '--budget', '64k');
     const triangles = bakeWithLightwell(scene, pack);
     const isFine = triangles > MOST_TRIANGLES;
     if (isFine) lightwell('export', pack, '-o', coarse, '--level', '0');

@@ -68,6 +68,25 @@ Vec3f viewpoint(const Box3f& box, const Vec3f& node, const Vec3f& cell) {
   return position;
 }
 
+template <typename RayOf, typename Take>
+void GatheredLight::gather_rays(int count, float near, Random& random, const RayOf& ray, const Take& take) const {
+  constexpr size_t ahead = 4;
+  struct Pending {
+    Vec3f direction{};
+    Gathering gathering;
+  };
+  std::array<Pending, ahead> pending;
+  const auto end = static_cast<size_t>(count);
+  for (size_t i = 0; i < end + ahead; i++) {
+    Pending& place = pending[i % ahead];
+    if (i >= ahead && i - ahead < end) take(place.direction, place.gathering);
+    if (i >= end) continue;
+    const Ray next = ray(static_cast<int>(i));
+    place = {next.direction, gather(world_, next, near, random)};
+    if (reflected_) cache_.find_cells(place.gathering);
+  }
+}
+
 NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, int rays, const Facings& facings) const {
   NodeSurroundings found;
   const float shift = random.uniform(), turn = random.uniform();
@@ -82,16 +101,17 @@ NodeSurroundings GatheredLight::around(const Vec3f& position, Random& random, in
     for (size_t i = 0; i < facings.size() && facings[i].weight > 0; i++)
       found.received[i] += radiance * std::max(dot(facings[i].normal, direction), 0.0f);
   };
-  for (int i = 0; i < rays; i++) {
-    const Vec3f direction = sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
-    const Gathering gathering = gather(world_, {position, direction}, cache_.near(), random);
+  const auto ray = [&](int i) {
+    return Ray{position, sphere_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn)};
+  };
+  gather_rays(rays, cache_.near(), random, ray, [&](const Vec3f& direction, const Gathering& gathering) {
     found.rays += static_cast<uint32_t>(gathering.rays);
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
     met += gathering.meets_surface;
     backs += gathering.meets_surface && !gathering.first.front;
     const Vec3f radiance = reflected(gathering) + emitted(position, direction, gathering, 1 / solid_angle);
     add(direction, radiance * solid_angle);
-  }
+  });
   found.insides = static_cast<float>(insides) / static_cast<float>(rays);
   found.behind = met > 0 ? static_cast<float>(backs) / static_cast<float>(met) : 0;
   found.rays += sample_luminaires(position, {}, random, [&](const Arrival& arrival) {
@@ -109,7 +129,7 @@ NodeSurroundings GatheredLight::without_much_noise(const Vec3f& position, const 
   int sets = 1;
   const bool matters = sum.insides < seldom_insides && size_of(sum.moments) > dark_;
   float noise = sum.noise;
-  const float most_noise = usual_noise / std::sqrt(std::sqrt(effort_));
+  const float most_noise = usual_noise / std::sqrt(effort_);
   for (; matters && sets < most_sets && noise > most_noise; sets++) {
     const NodeSurroundings more = around(position, random, rays_a_node, facings);
     sum.moments += more.moments;
@@ -184,14 +204,16 @@ Received GatheredLight::received(const Vec3f& position, const Vec3f& normal, int
   const Frame frame(normal);
   const float shift = random.uniform(), turn = random.uniform();
   const float n = static_cast<float>(rays);
-  for (int i = 0; i < rays; i++) {
+  const Vec3f origin = world_.surfaces().leave(position, normal);
+  const auto ray = [&](int i) {
     const Vec3f up = cosine_direction(static_cast<size_t>(i), static_cast<size_t>(rays), shift, turn);
-    const Gathering gathering =
-        gather(world_, {world_.surfaces().leave(position, normal), frame.to_world(up)}, near * cache_.near(), random);
-    const Vec3f direction = frame.to_world(up);
+    return Ray{origin, frame.to_world(up)};
+  };
+  gather_rays(rays, near * cache_.near(), random, ray, [&](const Vec3f& direction, const Gathering& gathering) {
     insides += gathering.meets_surface ? space_.from_inside(gathering.first) : space_.closed();
-    sum += (reflected(gathering) + emitted(position, direction, gathering, n * up[2] / pi)) * (pi / n);
-  }
+    const float density = n * std::max(dot(normal, direction), 0.0f) / pi;
+    sum += (reflected(gathering) + emitted(position, direction, gathering, density)) * (pi / n);
+  });
   sample_luminaires(position, normal, random, [&](const Arrival& arrival) {
     const float cosine = dot(normal, arrival.direction);
     if (cosine <= 0) return;

@@ -37,6 +37,10 @@ class GatheredLight {
  private:
   NodeSurroundings gather_node(const Vec3f& node, const Vec3f& cell, const Facings& facings, int most_sets,
                                Random& random) const;
+  /// Gathers along ray(0) ... ray(count - 1) and calls take(direction, gathering) for each in turn. Each is taken a few
+  /// rays later, when the memory has the light of what it sees.
+  template <typename RayOf, typename Take>
+  void gather_rays(int count, float near, Random& random, const RayOf& ray, const Take& take) const;
   Vec3f reflected(const Gathering& gathering) const { return reflected_ ? cache_.reflected(gathering) : Vec3f{}; }
   /// The radiance that the contained luminaires send straight along a ray, weighted beside samples of the luminaires;
   /// `density` is that of the rays, 1/sr.

@@ -46,12 +46,12 @@ struct Effort {
 };
 
 Effort effort_of(const LightBakeOptions& options, Clock::time_point start, bool surroundings) {
-  if (options.nodes > 0) return {.nodes = options.nodes};
-  Effort effort{.nodes = coarse_nodes, .adaptive = true, .most_bytes = options.most_bytes};
-  if (surroundings) effort.most_bytes /= share_of_surroundings;
   // Three times the error would do with a ninth of the rays; it gets a third, since noise shows before it is measured.
   constexpr float usual_error = 0.01f, least_rays = 0.25f;
-  effort.rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
+  const float rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
+  if (options.nodes > 0) return {.nodes = options.nodes, .rays = rays};
+  Effort effort{.nodes = coarse_nodes, .adaptive = true, .most_bytes = options.most_bytes, .rays = rays};
+  if (surroundings) effort.most_bytes /= share_of_surroundings;
   if (options.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
   if (std::isfinite(options.seconds))
     effort.deadline =

@@ -17,10 +17,11 @@ struct LightBakeOptions {
   /// On the longest axis of a regular grid, at least 2; 0 for an adaptive grid, with bricks where the light changes
   /// quickly, which takes a method that goes node by node.
   int nodes = 0;
-  /// Of an adaptive grid: the root mean square error below which it is not divided further, a share of the mean
-  /// irradiance; how long its stream may get, in bytes, one for each group (the coarsest grid's own bytes are the
-  /// least); and when it is not divided further, in seconds. A draft begins coarser and is tested by fewer rays.
+  /// The root mean square error that is aimed at, a share of the mean irradiance: the larger, the fewer rays are taken.
   float target_error = 0.01f;
+  /// An adaptive grid is divided until it errs by less than that; how long its stream may get, in bytes, one for each
+  /// group (the coarsest grid's own bytes are the least); and when it is not divided further, in seconds. A draft
+  /// begins coarser and is tested by fewer rays.
   size_t most_bytes = 128 * 1024;
   double seconds = std::numeric_limits<double>::infinity();
   bool draft = false;

@@ -88,10 +88,10 @@ std::string journal_name(const Options& options) { return options.output + ".jou
 
 /// Refuses options that do not go together, before any work.
 Result<void> check_options(const Options& options) {
-  const bool limited = options.target_error || options.budget > 0 || options.stop_after || options.preview;
+  const bool limited = options.budget > 0 || options.stop_after || options.preview;
   if (limited && options.scene.nodes)
     return fail("--grid",
-                "N is all there is to say: --target-error, --budget, --stop-after and --preview go with auto");
+                "N says how many nodes there are: --budget, --stop-after and --preview go with auto");
   if (options.resume && options.output == "-") return fail("--resume", "needs an output that is a file");
   return {};
 }

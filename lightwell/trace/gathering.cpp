@@ -10,10 +10,10 @@ constexpr int most_near = 6;
 /// Follows one ray from gloss to gloss, and through narrow places.
 class Gatherer {
  public:
-  Gatherer(const World& world, float near, Random& random)
-      : surfaces_(world.surfaces()), lights_(world.lights()), near_(near), random_(random) {}
+  Gatherer(const World& world, float near, Random& random, Gathering& gathering)
+      : surfaces_(world.surfaces()), lights_(world.lights()), near_(near), random_(random), gathering_(gathering) {}
 
-  Gathering follow(Ray ray) {
+  void follow(Ray ray) {
     while (gathering_.diffuse_count < Gathering::most_diffuse) {
       Hit hit;
       gathering_.rays++;
@@ -42,7 +42,6 @@ class Gatherer {
       if (!reflect(hit, followed, ray)) break;
       reflections_++;
     }
-    return gathering_;
   }
 
  private:
@@ -90,7 +89,7 @@ class Gatherer {
   const Lights& lights_;
   float near_;
   Random& random_;
-  Gathering gathering_;
+  Gathering& gathering_;
   Vec3f throughput_ = Vec3f::filled(1);
   float lobe_density_ = 0;  // with which the last surface chose the ray
   int reflections_ = 0;
@@ -99,7 +98,9 @@ class Gatherer {
 }  // namespace
 
 Gathering gather(const World& world, Ray ray, float near, Random& random) {
-  return Gatherer(world, near, random).follow(ray);
+  Gathering gathering;
+  Gatherer(world, near, random, gathering).follow(ray);
+  return gathering;
 }
 
 }  // namespace lightwell

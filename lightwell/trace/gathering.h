@@ -13,8 +13,9 @@ struct Gathering {
   /// A point of a surface that reflects diffusely: it sends albedo / pi times its irradiance.
   struct Diffuse {
     Vec3f position{};
-    Vec3f facing{};  ///< unit normal on the side that is seen
-    Vec3f albedo{};  ///< less what surfaces on the way keep
+    Vec3f facing{};     ///< unit normal on the side that is seen
+    Vec3f albedo{};     ///< less what surfaces on the way keep
+    uint64_t cell = 0;  ///< of a surface cache: see SurfaceCache::find_cells()
   };
   static constexpr size_t most_diffuse = 8;
 

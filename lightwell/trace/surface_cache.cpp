@@ -296,12 +296,12 @@ Result<SurfaceCache> SurfaceCache::build(const World& world, std::span<const Vec
 /// Makes the tables of what is looked up.
 void SurfaceCache::finish() {
   ByCell<float> counts;
-  light_.reserve(irradiance_.size());
+  light_ = CellTable(irradiance_.size());
   std::vector<uint64_t> cells(irradiance_.size());  // in the order of their numbers, so that the means are reproducible
   for (const auto& [cell, number] : numbers_) cells[number] = cell;
   for (size_t number = 0; number < cells.size(); number++) {
     uint64_t key = cells[number];
-    light_.emplace(key, irradiance_[number]);
+    light_.add(key, irradiance_[number]);
     for (int level = 0; level < parent_levels; level++) {
       key = SurfaceCells::parent(key);
       Vec3f& mean = parents_[key];
@@ -310,21 +310,32 @@ void SurfaceCache::finish() {
   }
 }
 
-Vec3f SurfaceCache::irradiance(const Vec3f& position, const Vec3f& facing) const {
-  uint64_t key = cells_.at(position, facing);
-  if (const auto found = light_.find(key); found != light_.end()) return found->second;
+Vec3f SurfaceCache::of_cell(uint64_t cell) const {
+  if (const Vec3f* found = light_.find(cell)) return *found;
   for (int level = 0; level < parent_levels; level++) {
-    key = SurfaceCells::parent(key);
-    if (const auto found = parents_.find(key); found != parents_.end()) return found->second;
+    cell = SurfaceCells::parent(cell);
+    if (const auto found = parents_.find(cell); found != parents_.end()) return found->second;
   }
   return {};
+}
+
+Vec3f SurfaceCache::irradiance(const Vec3f& position, const Vec3f& facing) const {
+  return of_cell(cells_.at(position, facing));
+}
+
+void SurfaceCache::find_cells(Gathering& gathering) const {
+  for (size_t i = 0; i < gathering.diffuse_count; i++) {
+    Gathering::Diffuse& point = gathering.diffuse[i];
+    point.cell = cells_.at(point.position, point.facing);
+    light_.prefetch(point.cell);
+  }
 }
 
 Vec3f SurfaceCache::reflected(const Gathering& gathering) const {
   Vec3f sum = gathering.mirrored;
   for (size_t i = 0; i < gathering.diffuse_count; i++) {
     const Gathering::Diffuse& point = gathering.diffuse[i];
-    sum += point.albedo * irradiance(point.position, point.facing) * (1 / pi);
+    sum += point.albedo * of_cell(point.cell) * (1 / pi);
   }
   return sum;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightwell/base/progress.h"
+#include "lightwell/trace/cell_table.h"
 #include "lightwell/trace/gathering.h"
 #include "lightwell/trace/surface_cells.h"
 
@@ -36,7 +37,10 @@ class SurfaceCache {
   Vec3f irradiance(const Vec3f& position, const Vec3f& facing) const;
   /// The distance, in metres, below which a ray should not end in the cache: see gather().
   float near() const { return cells_.size(); }
-  /// The radiance that a ray sees by reflection, W/m2/sr.
+  /// Finds out in which cells the surfaces lie that a ray sees, and asks the memory for their light. A few rays later
+  /// reflected() need not wait for it.
+  void find_cells(Gathering& gathering) const;
+  /// The radiance that a ray sees by reflection, W/m2/sr. Its cells have been found.
   Vec3f reflected(const Gathering& gathering) const;
 
   /// A number for the light of all cells, as good as unique.
@@ -49,6 +53,7 @@ class SurfaceCache {
  private:
   explicit SurfaceCache(const SurfaceCells& cells) : cells_(cells) {}
   void finish();
+  Vec3f of_cell(uint64_t cell) const;
 
   SurfaceCells cells_;
   /// Keys of cells differ in few bits.
@@ -62,7 +67,7 @@ class SurfaceCache {
   using ByCell = tsl::robin_map<uint64_t, Value, Mixed>;
   ByCell<uint32_t> numbers_;  // into irradiance_; while it is built
   std::vector<Vec3f> irradiance_;
-  ByCell<Vec3f> light_;    // the same in one step: most of what gathering waits for
+  CellTable light_;        // the same in one step
   ByCell<Vec3f> parents_;  // mean irradiance of the cells in larger ones
   uint64_t rays_ = 0;
 
