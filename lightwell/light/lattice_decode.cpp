@@ -117,13 +117,13 @@ LightGrid LatticeDecoder::grid(Fill fill) const {
   grid.normal_offset = layout_.normal_offset;
   grid.moments.resize(grid.shape.count());
   grid.valid.assign(grid.shape.count(), 1);
-  const LatticeNumbers values = field_.values(base_);
-  for (size_t i = 0; i < field_.order().size(); i++) {
-    if (i >= base_ && fill == Fill::none) break;
+  for (size_t i = 0; i < base_; i++) {
     const uint32_t node = field_.order()[i].node;
-    grid.valid[node] = values[node].back() != 0;
-    grid.moments[node] = field_.record().decode(values[node]);
+    const std::span<const int32_t> numbers = field_.node(node);
+    grid.valid[node] = numbers.back() != 0;
+    grid.moments[node] = field_.record().decode(numbers);
   }
+  if (fill != Fill::none) field_.fill(grid, base_);
   place_bricks(grid);
   grid.links.nodes = field_.links().nodes;
   return grid;

@@ -39,21 +39,43 @@ LatticeField::LatticeField(const LatticeLayout& layout)
   links_.bricks.resize(layout.tree.bricks().size());
 }
 
-LatticeNumbers LatticeField::values(size_t known) const {
-  LatticeNumbers values = values_;
-  for (size_t i = known; i < order_.size(); i++)
-    LatticeExpectation(*record_, parents(values, order_[i])).fill(values[order_[i].node]);
-  return values;
+void LatticeField::fill(LightGrid& grid, size_t known) const {
+  for (size_t i = known; i < order_.size(); i++) {
+    const LatticeNode& place = order_[i];
+    const LatticeParents around = parents(place);
+    float weights = 0, every = 0;
+    Moments sum, of_all;
+    size_t valid = 0;
+    const auto add = [&](size_t parent, float weight) {
+      const Moments& light = grid.moments[place.parents[parent]];
+      const bool is_valid = grid.valid[place.parents[parent]] != 0;
+      valid += is_valid;
+      of_all += light * weight;
+      every += weight;
+      if (!is_valid || around.all()[parent].blocked) return;
+      sum += light * weight;
+      weights += weight;
+    };
+    // Parents come in pairs, before and after on an axis; the nearer one counts more.
+    for (size_t pair = 0; pair < place.parent_count; pair += 2) {
+      const auto before = static_cast<float>(place.node - place.parents[pair]);
+      const auto after = static_cast<float>(place.parents[pair + 1] - place.node);
+      add(pair, after / (before + after));
+      add(pair + 1, before / (before + after));
+    }
+    grid.moments[place.node] = weights > 0 ? sum * (1 / weights) : of_all * (1 / every);
+    grid.valid[place.node] = 2 * valid >= place.parent_count;
+  }
 }
 
-LatticeParents LatticeField::parents(const LatticeNumbers& values, const LatticeNode& node) const {
+LatticeParents LatticeField::parents(const LatticeNode& node) const {
   LatticeParents parents;
   const auto row = static_cast<uint32_t>(grid_nodes_[0]), layer = row * static_cast<uint32_t>(grid_nodes_[1]);
   for (size_t i = 0; i < node.parent_count; i++) {
     const uint32_t parent = node.parents[i], apart = std::max(parent, node.node) - std::min(parent, node.node);
     const int axis = apart % layer == 0 ? 2 : apart % row == 0 ? 1 : 0;
     const bool blocked = !links_.nodes.empty() && blocked_between(links_.nodes, grid_nodes_, parent, node.node, axis);
-    parents.add({values[parent].data(), static_cast<uint8_t>(axis), blocked});
+    parents.add({values_[parent].data(), static_cast<uint8_t>(axis), blocked});
   }
   return parents;
 }

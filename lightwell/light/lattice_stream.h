@@ -79,7 +79,7 @@ class LatticeField {
   std::span<const int32_t> point(uint32_t brick, int point) const { return points_[place_of(brick, point)]; }
   const Links& links() const { return links_; }
 
-  LatticeExpectation expect(const LatticeNode& node) const { return {*record_, parents(values_, node)}; }
+  LatticeExpectation expect(const LatticeNode& node) const { return {*record_, parents(node)}; }
   /// Asks the memory for what expect() will need of a node some places on in the order, which scatters nodes: waiting
   /// for it took a fifth of decoding. (GCC takes a function that only prefetches for one that does nothing, and leaves
   /// out its calls, unless it must inline it.)
@@ -88,8 +88,9 @@ class LatticeField {
     const LatticeNode& node = order_[place];
     for (size_t i = 0; i < node.parent_count; i++) values_.prefetch(node.parents[i]);
   }
-  /// The numbers of the grid's nodes when so many are known: those of the others lie between them.
-  LatticeNumbers values(size_t known) const;
+  /// Gives the nodes of a grid from `known` on in the order the light between their parents, which are there: by
+  /// distance, of those that are valid and in sight. What is expected() is a mean of logarithms, and darker.
+  void fill(LightGrid& grid, size_t known) const;
   /// Sets the points of a brick in turn: those that it shares with bricks before it, which must be set, are taken over,
   /// those that hang are as expected, and code(numbers, parents, point) sets the others, of their parents also which
   /// are blocked.
@@ -101,7 +102,7 @@ class LatticeField {
     return size_t(brick) * Brick::points + static_cast<size_t>(point);
   }
   void take_corners(uint32_t brick);
-  LatticeParents parents(const LatticeNumbers& values, const LatticeNode& node) const;
+  LatticeParents parents(const LatticeNode& node) const;
   LatticeParents parents(uint32_t brick, int point) const;
   void keep_links(uint32_t brick, int point, const LatticeParents& parents);
 

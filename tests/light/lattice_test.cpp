@@ -122,6 +122,28 @@ TEST(LatticeStream, AnyPrefixIsAGridBetweenWhatIsKnown) {
   }
 }
 
+// Axes are divided unevenly: the middle of 0 and 5 is 2. Numbers are told as floats, so that only rounding is left.
+TEST(LatticeStream, WhatIsMissingOfAnEvenSlopeIsOnIt) {
+  LightGrid grid;
+  grid.shape = {.lo = {}, .cell = Vec3f::filled(1), .nodes = {{6, 9, 13}}};
+  grid.valid.assign(grid.shape.count(), 1);
+  for (size_t i = 0; i < grid.shape.count(); i++) {
+    const Vec3f p = grid.shape.node(i).cast<float>();
+    Moments light;
+    for (Vec3f& m : light.m) m = Vec3f{{1 + p[0], 2 + 0.5f * p[1], 3 + 0.25f * p[2] + 0.125f * p[0]}};
+    grid.moments.push_back(light);
+  }
+  const LatticeStream stream = encode_lattice(grid, {.record = LightRecord::floats}).value();
+  LatticeDecoder decoder = opened(stream);
+  for (const LightBundle& bundle : stream.bundles) {
+    const LightGrid shown = decoder.grid(Fill::push_pull);
+    for (size_t i = 0; i < grid.shape.count(); i++)
+      for (size_t k = 0; k < 9; k++)
+        for (int c = 0; c < 3; c++) ASSERT_NEAR(shown.moments[i].m[k][c], grid.moments[i].m[k][c], 1e-5f) << i;
+    ASSERT_TRUE(decoder.append(bundle.payload));
+  }
+}
+
 TEST(LatticeStream, IsTheSameEveryTime) {
   const LightGrid grid = bricked_grid(5);
   const LatticeStream a = encode_lattice(grid).value(), b = encode_lattice(grid).value();
