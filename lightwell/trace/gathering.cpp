@@ -28,7 +28,7 @@ class Gatherer {
             [&] { return lights_.environment_density(ray.direction); });
         break;
       }
-      const Surface surface = surfaces_.surface(hit);
+      const Surface surface = surfaces_.surface_from_afar(hit);
       see(lights_.luminaire(hit), surfaces_.emission(hit, surface), [&] { return lights_.density(ray.origin, hit); });
       Bsdf followed = surface.bsdf;
       if (hit.distance >= near_ || reflections_ >= most_near) {

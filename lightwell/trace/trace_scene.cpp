@@ -9,6 +9,7 @@
 #include "lightwell/scene/finish_mesh.h"
 #include "lightwell/trace/coincident_faces.h"
 #include "lightwell/trace/focus.h"
+#include "lightwell/trace/images_from_afar.h"
 #include "lightwell/trace/normal_map.h"
 #include "lightwell/trace/shading.h"
 #include "lightwell/trace/texture_lookup.h"
@@ -321,13 +322,20 @@ std::array<Vec2f, 2> TraceScene::texcoords(const Mesh& mesh, const Face& face, f
   return texcoords;
 }
 
-Surface TraceScene::surface(uint32_t instance, uint32_t face, float u, float v, float cosine) const {
+Surface TraceScene::surface_from_afar(const Hit& hit) const {
+  if (material(hit.instance).emission_texture.image >= 0) return surface(hit);
+  std::call_once(seen_from_afar_, [this] { from_afar_ = images_from_afar(scene_); });
+  return surface(hit.instance, hit.face, hit.u, hit.v, hit.cosine, from_afar_);
+}
+
+Surface TraceScene::surface(uint32_t instance, uint32_t face, float u, float v, float cosine,
+                            const std::vector<Image>& images) const {
   const Placed& placed = placed_[instance];
   if (placed.uniform) return placed.surface;
   const Mesh& mesh = *placed.mesh;
   const Face& f = mesh.faces[face];
   const Vec4f color = mesh.colors.empty() ? Vec4f::filled(1) : interpolated(mesh.colors, f, u, v);
-  return surface_of(*placed.material, scene_.images, texcoords(mesh, f, u, v), color, cosine);
+  return surface_of(*placed.material, images, texcoords(mesh, f, u, v), color, cosine);
 }
 
 Vec3f TraceScene::emission(const Hit& hit, const Surface& surface) const {

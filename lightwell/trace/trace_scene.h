@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 
 #include "lightwell/base/random.h"
 #include "lightwell/base/result.h"
@@ -70,7 +71,12 @@ class TraceScene {
   Surface surface(const Hit& hit) const { return surface(hit.instance, hit.face, hit.u, hit.v, hit.cosine); }
   /// The material at a point of a face, for a ray with this cosine to its normal; u and v are the weights of the face's
   /// second and third corner.
-  Surface surface(uint32_t instance, uint32_t face, float u, float v, float cosine = 1) const;
+  Surface surface(uint32_t instance, uint32_t face, float u, float v, float cosine = 1) const {
+    return surface(instance, face, u, v, cosine, scene_.images);
+  }
+  /// The same, textures but those that shine being blurred a little: see images_from_afar(), which are made when they
+  /// are first asked for.
+  Surface surface_from_afar(const Hit& hit) const;
   /// The material of an instance that is traced.
   const Material& material(uint32_t instance) const { return *placed_[instance].material; }
   const Mesh& mesh(uint32_t instance) const { return *placed_[instance].mesh; }
@@ -121,6 +127,8 @@ class TraceScene {
   static void set_faces(RTCGeometryTy* geometry, const Placed& placed, const float* positions, CoincidentFaces& others);
   RTCSceneTy* shared_scene(int primitive, Placed& placed);
   void mark_uniform(Placed& placed) const;
+  Surface surface(uint32_t instance, uint32_t face, float u, float v, float cosine,
+                  const std::vector<Image>& images) const;
   std::array<Vec2f, 2> texcoords(const Mesh& mesh, const Face& face, float u, float v) const;
   Vec3f mapped(const Hit& hit, const Vec3f& normal) const;
   Vec3f front_normal(uint32_t instance, const Vec3f& by_winding) const;
@@ -137,6 +145,8 @@ class TraceScene {
   Box3f bounds_, focus_;
   float offset_ = 0;
   bool lets_light_pass_ = false;
+  mutable std::once_flag seen_from_afar_;
+  mutable std::vector<Image> from_afar_;
 };
 
 }  // namespace lightwell
