@@ -217,7 +217,6 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   const GatheredLight light(scene, estimator);
   TestPointOptions testing{.free_points = 250, .seed = ~estimator.seed, .threads = estimator.threads};
   testing.rays = scaled(testing.rays, effort.rays);
-  testing.most_noise = most_noise;
   LW_TRY(test, TestPoints::gather(light, testing, progress));
 
   statistics.rays += cache.rays();
@@ -232,7 +231,6 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   if (effort.adaptive) {
     // Points of their own: what the grid was fitted to would tell nothing of its error.
     TestPointOptions fitting = testing;
-    fitting.most_noise = std::numeric_limits<float>::infinity();
     fitting.surface_points = static_cast<size_t>(scaled(16'000, std::sqrt(effort.rays)));
     fitting.free_points = static_cast<size_t>(scaled(1000, std::sqrt(effort.rays)));
     fitting.rays /= 8;
@@ -257,6 +255,7 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   judging.seed ^= 0x0dd5;
   judging.near = 8;
   judging.rays /= 2;
+  judging.most_noise = most_noise;
   LW_TRY(judge, TestPoints::gather(light, judging, progress));
   const float error = judge.error(all);
   for (BakedGrid& baked : grids) baked.estimated_error = error;

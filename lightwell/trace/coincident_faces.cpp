@@ -3,30 +3,48 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "lightwell/base/random.h"
 
 namespace lightwell {
 namespace {
 
-uint64_t fingerprint_of(const std::array<Vec3f, 3>& corners, const FaceLayer& layer) {
-  // The same face may begin at any of its corners.
-  const size_t first = static_cast<size_t>(std::ranges::min_element(corners, {}, &Vec3f::e) - corners.begin());
-  const size_t step = layer.mirrored ? 2 : 1;
-  uint64_t key = layer.shines ? 1 : 0;
-  for (size_t i = 0; i < 3; i++)
-    for (const float c : corners[(first + i * step) % 3].e)
+/// Whether the corners, sorted, are in an odd order: the face's other way round has the same ones in an even order.
+bool sort_corners(std::array<Vec3f, 3>& corners) {
+  bool odd = false;
+  for (const auto& [a, b] : {std::pair<size_t, size_t>{0, 1}, {1, 2}, {0, 1}}) {
+    if (!(corners[b].e < corners[a].e)) continue;
+    std::swap(corners[a], corners[b]);
+    odd = !odd;
+  }
+  return odd;
+}
+
+uint64_t fingerprint_of(const std::array<Vec3f, 3>& corners, bool shines) {
+  uint64_t key = shines ? 1 : 0;
+  for (const Vec3f& corner : corners)
+    for (const float c : corner.e)
       key = hash64((key << 1 | key >> 63) + std::bit_cast<uint32_t>(c + 0.f) + 0x9e3779b97f4a7c15u);  // -0 is 0
   return key;
 }
 
 }  // namespace
 
-bool CoincidentFaces::hides(const std::array<Vec3f, 3>& corners, const FaceLayer& layer) {
-  uint8_t& layers = layers_[fingerprint_of(corners, layer)];
-  if (layers >= most_layers) return true;
-  layers = layer.opaque ? most_layers : static_cast<uint8_t>(layers + 1);
-  return false;
+CoincidentFaces::Found CoincidentFaces::add(FaceNumber number, const std::array<Vec3f, 3>& corners,
+                                            const FaceLayer& layer) {
+  std::array<Vec3f, 3> sorted = corners;
+  const bool way = sort_corners(sorted) != layer.mirrored;
+  std::array<Layers, 2>& place = places_[fingerprint_of(sorted, layer.shines)];
+  Layers& same = place[way];
+  const Layers& turned = place[!way];
+  if (same.count >= most_layers) return {.hidden = true, .turned = {}};
+  if (!layer.opaque) {
+    same.count++;
+    return {};
+  }
+  same = {most_layers, number};
+  return {.hidden = false, .turned = turned.count >= most_layers ? std::optional(turned.opaque) : std::nullopt};
 }
 
 }  // namespace lightwell

@@ -34,6 +34,8 @@ RTCRay embree_ray(const Ray& ray) {
   return r;
 }
 
+uint64_t key_of(const FaceNumber& number) { return uint64_t(number.instance) << 32 | number.face; }
+
 template <typename T>
 T interpolated(const std::vector<T>& values, const Face& face, float u, float v) {
   return values[face[0]] * (1 - u - v) + values[face[1]] * u + values[face[2]] * v;
@@ -185,9 +187,9 @@ RTCGeometryTy* TraceScene::new_geometry(Placed& placed, const Transform* to_scen
       const Vec3f p = to_scene ? to_scene->point(mesh.positions[i]) : mesh.positions[i];
       for (size_t axis = 0; axis < 3; axis++) positions[3 * i + axis] = p.e[axis];
     }
+    if (to_scene) placed.scene_positions = positions;
     set_faces(geometry, placed, positions, others);
   }
-  if (to_scene) placed.scene_positions = positions;
   if (lets_light_pass(*placed.material)) {
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryIntersectFilterFunction(geometry, filter);
@@ -208,9 +210,17 @@ void TraceScene::set_faces(RTCGeometryTy* geometry, const Placed& placed, const 
     const float* p = positions + 3 * size_t(vertex);
     return Vec3f{{p[0], p[1], p[2]}};
   };
+  const auto instance = static_cast<uint32_t>(&placed - placed_.data());
   std::vector<uint32_t> hidden;
-  for (uint32_t i = 0; i < faces.size(); i++)
-    if (others.hides({corner(faces[i][0]), corner(faces[i][1]), corner(faces[i][2])}, layer)) hidden.push_back(i);
+  for (uint32_t i = 0; i < faces.size(); i++) {
+    const CoincidentFaces::Found found =
+        others.add({instance, i}, {corner(faces[i][0]), corner(faces[i][1]), corner(faces[i][2])}, layer);
+    if (found.hidden) hidden.push_back(i);
+    if (found.turned && placed.scene_positions) {
+      turned_[key_of({instance, i})] = *found.turned;
+      turned_[key_of(*found.turned)] = {instance, i};
+    }
+  }
   if (hidden.empty()) {
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, faces.data(), 0, sizeof(Face),
                                faces.size());
@@ -270,7 +280,26 @@ bool TraceScene::intersect(const Ray& ray, Random& random, Hit& hit) const {
   const float cosine = -dot(hit.normal, ray.direction);
   hit.front = cosine > 0;
   hit.cosine = std::abs(cosine);
+  if (!hit.front && !turned_.empty()) turn_round(hit);
   return true;
+}
+
+/// Where another face lies in the same place and turns its front to the ray, it is the one that is seen.
+void TraceScene::turn_round(Hit& hit) const {
+  const auto found = turned_.find(key_of({hit.instance, hit.face}));
+  if (found == turned_.end()) return;
+  const FaceNumber other = found->second;
+  const std::array<Vec3f, 3> from = corners(hit.instance, hit.face), to = corners(other.instance, other.face);
+  const std::array<float, 3> weights{1 - hit.u - hit.v, hit.u, hit.v};
+  const auto weight_of = [&](const Vec3f& corner) {
+    return weights[static_cast<size_t>(std::ranges::find(from, corner) - from.begin()) % 3];
+  };
+  hit.instance = other.instance;
+  hit.face = other.face;
+  hit.u = weight_of(to[1]);
+  hit.v = weight_of(to[2]);
+  hit.normal = -hit.normal;
+  hit.front = true;
 }
 
 /// The unit normal of a face's front in scene space, given its normal by winding in the space in which Embree holds the

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tsl/robin_map.h>
+
 #include <memory>
 #include <mutex>
 
 #include "lightwell/base/random.h"
 #include "lightwell/base/result.h"
 #include "lightwell/scene/scene.h"
+#include "lightwell/trace/coincident_faces.h"
 #include "lightwell/trace/material.h"
 
 struct RTCDeviceTy;
@@ -17,8 +20,6 @@ struct RTCRay;
 struct RTCHit;
 
 namespace lightwell {
-
-class CoincidentFaces;
 
 /// A half-line from `origin` along a unit direction, up to `far` metres.
 struct Ray {
@@ -124,7 +125,8 @@ class TraceScene {
   Result<void> check_extent() const;
   void place(uint32_t instance, Placing& placing);
   RTCGeometryTy* new_geometry(Placed& placed, const Transform* to_scene, CoincidentFaces& others);
-  static void set_faces(RTCGeometryTy* geometry, const Placed& placed, const float* positions, CoincidentFaces& others);
+  void set_faces(RTCGeometryTy* geometry, const Placed& placed, const float* positions, CoincidentFaces& others);
+  void turn_round(Hit& hit) const;
   RTCSceneTy* shared_scene(int primitive, Placed& placed);
   void mark_uniform(Placed& placed) const;
   Surface surface(uint32_t instance, uint32_t face, float u, float v, float cosine,
@@ -145,6 +147,7 @@ class TraceScene {
   Box3f bounds_, focus_;
   float offset_ = 0;
   bool lets_light_pass_ = false;
+  tsl::robin_map<uint64_t, FaceNumber> turned_;  // of faces in one place that face opposite ways, each to the other
   mutable std::once_flag seen_from_afar_;
   mutable std::vector<Image> from_afar_;
 };

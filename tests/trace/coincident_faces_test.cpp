@@ -16,29 +16,73 @@ constexpr std::array<Vec3f, 3> begun_elsewhere{{{{1, 0, 0}}, {{0, 1, 0}}, {{-0.f
 constexpr std::array<Vec3f, 3> turned_round{{{{0, 0, 0}}, {{0, 1, 0}}, {{1, 0, 0}}}};
 constexpr std::array<Vec3f, 3> elsewhere{{{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 1e-7f}}}};
 
+bool hides(CoincidentFaces& faces, const std::array<Vec3f, 3>& corners, const FaceLayer& layer) {
+  return faces.add({}, corners, layer).hidden;
+}
+
 TEST(CoincidentFaces, HidesTheSameFaceOnly) {
   CoincidentFaces faces;
-  EXPECT_FALSE(faces.hides(face, {}));
-  EXPECT_FALSE(faces.hides(turned_round, {}));
-  EXPECT_FALSE(faces.hides(elsewhere, {}));
-  EXPECT_FALSE(faces.hides(face, {.shines = true}));
-  EXPECT_TRUE(faces.hides(face, {}));
-  EXPECT_TRUE(faces.hides(begun_elsewhere, {}));
-  EXPECT_TRUE(faces.hides(turned_round, {.mirrored = true}));
-  EXPECT_TRUE(faces.hides(face, {.opaque = false})) << "what is behind a wall";
+  EXPECT_FALSE(hides(faces, face, {}));
+  EXPECT_FALSE(hides(faces, turned_round, {}));
+  EXPECT_FALSE(hides(faces, elsewhere, {}));
+  EXPECT_FALSE(hides(faces, face, {.shines = true}));
+  EXPECT_TRUE(hides(faces, face, {}));
+  EXPECT_TRUE(hides(faces, begun_elsewhere, {}));
+  EXPECT_TRUE(hides(faces, turned_round, {.mirrored = true}));
+  EXPECT_TRUE(hides(faces, face, {.opaque = false})) << "what is behind a wall";
 }
 
 TEST(CoincidentFaces, WhatLetsLightPassHidesNothingUntilItIsMany) {
   CoincidentFaces faces;
-  for (int i = 0; i < CoincidentFaces::most_layers; i++) EXPECT_FALSE(faces.hides(face, {.opaque = false})) << i;
-  EXPECT_TRUE(faces.hides(face, {.opaque = false}));
+  for (int i = 0; i < CoincidentFaces::most_layers; i++) EXPECT_FALSE(hides(faces, face, {.opaque = false})) << i;
+  EXPECT_TRUE(hides(faces, face, {.opaque = false}));
 }
 
 TEST(CoincidentFaces, AWallBehindGlassIsStillThere) {
   CoincidentFaces faces;
-  EXPECT_FALSE(faces.hides(face, {.opaque = false}));
-  EXPECT_FALSE(faces.hides(face, {}));
-  EXPECT_TRUE(faces.hides(face, {}));
+  EXPECT_FALSE(hides(faces, face, {.opaque = false}));
+  EXPECT_FALSE(hides(faces, face, {}));
+  EXPECT_TRUE(hides(faces, face, {}));
+}
+
+TEST(CoincidentFaces, TellsOfOneThatIsTurnedRound) {
+  CoincidentFaces faces;
+  EXPECT_FALSE(faces.add({0, 1}, face, {}).turned);
+  const auto found = faces.add({2, 3}, turned_round, {});
+  EXPECT_FALSE(found.hidden);
+  ASSERT_TRUE(found.turned);
+  EXPECT_EQ(found.turned->instance, 0u);
+  EXPECT_EQ(found.turned->face, 1u);
+  EXPECT_TRUE(faces.add({4, 5}, begun_elsewhere, {}).hidden);
+  EXPECT_FALSE(faces.add({6, 7}, elsewhere, {}).turned);
+  EXPECT_TRUE(faces.add({8, 9}, elsewhere, {.mirrored = true}).turned);
+}
+
+// A sheet made of two faces, its back in another colour: each ray meets the side that it comes from, and where on it.
+TEST(CoincidentFaces, ASheetOfTwoFacesShowsEachSide) {
+  const auto sheet = [](bool turned) {
+    Mesh mesh;
+    mesh.positions = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}};
+    mesh.faces = {turned ? Face{1, 0, 2} : Face{0, 1, 2}};
+    return mesh;
+  };
+  Scene scene = scene_of(sheet(false), lambertian(0.5f));
+  add(scene, sheet(true), lambertian(0.25f));
+  const auto trace = traced(scene);
+  Random random(1, 0);
+  for (int i = 0; i < 1000; i++) {
+    const Vec3f at{{0.5f * random.uniform(), 0.5f * random.uniform(), 0}};
+    for (const float side : {1.0f, -1.0f}) {
+      Hit hit;
+      ASSERT_TRUE(trace->intersect({at + Vec3f{{0, 0, side}}, {{0, 0, -side}}}, random, hit));
+      EXPECT_TRUE(hit.front);
+      EXPECT_EQ(hit.normal, (Vec3f{{0, 0, side}}));
+      EXPECT_EQ(trace->surface(hit).bsdf.diffuse[0], side > 0 ? 0.5f : 0.25f);
+      const std::array<Vec3f, 3> corners = trace->corners(hit.instance, hit.face);
+      const Vec3f found = corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;
+      EXPECT_LT(length(found - at), 1e-5f) << "rounding";
+    }
+  }
 }
 
 // Ten thousand blocks in one place are one block for rays. The processor time of the same rays tells: were all faces
