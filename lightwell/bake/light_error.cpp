@@ -12,9 +12,6 @@ namespace {
 
 /// Of what a tenth of all points have at least: places that are darker lie in gaps that nobody sees.
 constexpr float least_lit = 0.03f;
-/// Of the same: brighter ones lie between a lamp and the ceiling that it hangs from, and one of them would outweigh all
-/// others in a root mean square.
-constexpr float most_lit = 20;
 /// A place that sees a greater share of insides is no free space, and a surface there is buried in a solid.
 constexpr float most_insides = 0.25f, most_buried = 0.5f;
 /// One that sees next to nothing but backs is outside of what the scene is about: under a floor that is a sheet.
@@ -107,16 +104,12 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
   return test;
 }
 
-/// Leaves out what is too dark to be seen, and what is far too bright.
+/// Leaves out what is too dark to be seen.
 void TestPoints::keep_lit(std::vector<Point>& points) {
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return brightness(a.irradiance) < brightness(b.irradiance); });
-  const float usual = brightness(points[points.size() * 9 / 10].irradiance);
-  if (!(usual > 0)) return;
-  std::erase_if(points, [&](const Point& point) {
-    const float light = brightness(point.irradiance);
-    return !(light > least_lit * usual && light < most_lit * usual);
-  });
+  const float least = least_lit * brightness(points[points.size() * 9 / 10].irradiance);
+  if (least > 0) std::erase_if(points, [&](const Point& point) { return !(brightness(point.irradiance) > least); });
 }
 
 float TestPoints::noise() const {

@@ -38,8 +38,8 @@ class TestPoints {
 
   /// The root mean square difference of a grid at the points, without the noise of the gathered light, as a share of
   /// the mean irradiance. Points that next to no light reaches, below 3 % of what a tenth of all points have at
-  /// least, say nothing of what is seen, and those with more than 20 times that, in a lamp's gap to its ceiling, would
-  /// say all; they are left out. Where no point is lit it is the difference itself, W/m2.
+  /// least, say nothing of what is seen, and are left out. Where no point is lit it is
+  /// the difference itself, W/m2.
   float error(const LightGrid& grid) const;
   /// The mean difference, of any sign, as a share of the mean irradiance: the few points of narrow gaps, which a root
   /// mean square is made of, do not rule it.
