@@ -177,7 +177,7 @@ Result<void> run(const Options& options, Progress& progress, Bake& bake) {
   const float extent = length(bake.world->surfaces().focus().size());
   bake.world.reset();
   if (bake.scene.cameras.empty()) add_camera(bake.scene.document, bake.camera, 1e-3f * extent, bake.scene.origin);
-  LW_TRY(file, make_pack(bake.scene, bake.light, options.pack, progress, bake.report, bake.pack_statistics));
+  LW_TRY(file, make_pack(std::move(bake.scene), bake.light, options.pack, progress, bake.report, bake.pack_statistics));
   bake.file = std::move(file);
   bake.geometry_seconds = watch.lap();
   LW_CHECK(write_file(options.output, bake.file));

@@ -47,7 +47,7 @@ Result<Figures> describe(const std::string& path, bool blocks) {
   const Directory& directory = pack.reader().directory();
   const Json& json = pack.json();
   const Json& scenes = member(json, "scenes");
-  Figures figures{{"scene", text(element(scenes, static_cast<size_t>(number(json, "scene", 0))), "name")},
+  Figures figures{{"scene", text(element(scenes, static_cast<size_t>(std::max(0, index_of(json, "scene")))), "name")},
                   {"id", to_text(directory.id)},
                   {"origin", pack.identity().origin.e},
                   {"streams", Figures::array()},

@@ -39,7 +39,8 @@ void set_size(const Options& options, const Camera& camera, RenderOptions& rende
     render.width = camera.width;
     render.height = camera.height;
   } else if (camera.aspect > 0) {
-    render.height = std::max(1, static_cast<int>(std::lround(static_cast<float>(render.width) / camera.aspect)));
+    const float height = std::round(static_cast<float>(render.width) / camera.aspect);
+    render.height = static_cast<int>(std::clamp(height, 1.f, static_cast<float>(largest_picture_side)));
   }
 }
 
@@ -105,8 +106,8 @@ int render_scene(const Options& options, const Console& console) {
 Result<Vec<int, 2>> parse_size(const std::string& text) {
   const size_t cross = text.find('x');
   if (cross == std::string::npos) return fail(text, "is not WIDTHxHEIGHT, such as 640x480");
-  LW_TRY(width, parse_whole(text.substr(0, cross), {1, 16384}));
-  LW_TRY(height, parse_whole(text.substr(cross + 1), {1, 16384}));
+  LW_TRY(width, parse_whole(text.substr(0, cross), {1, largest_picture_side}));
+  LW_TRY(height, parse_whole(text.substr(cross + 1), {1, largest_picture_side}));
   return Vec<int, 2>{{static_cast<int>(width), static_cast<int>(height)}};
 }
 

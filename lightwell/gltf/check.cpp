@@ -31,7 +31,7 @@ Result<void> check_arrays(const Json& json) {
 Result<void> check_references(const Json& json) {
   std::map<std::string_view, size_t> sizes;
   Result<void> result;
-  for_each_reference(json, [&](const Json& value, std::string_view array, const std::string& place) {
+  for_each_reference(json, [&](const Json& value, std::string_view array, const ReferencePlace& place) {
     if (!result) return;
     if (!sizes.contains(array)) {
       const Json& target = referenced_array(json, array);
@@ -39,9 +39,10 @@ Result<void> check_references(const Json& json) {
     }
     const int64_t index = whole_number(value);
     if (index < 0)
-      result = fail(place, "is not an index");
+      result = fail(place.text(), "is not an index");
     else if (static_cast<size_t>(index) >= sizes[array])
-      result = fail(place, "there is no " + element_name(std::string(array).c_str(), static_cast<size_t>(index)));
+      result =
+          fail(place.text(), "there is no " + element_name(std::string(array).c_str(), static_cast<size_t>(index)));
   });
   return result;
 }

@@ -88,14 +88,6 @@ void share_buffer_views(Document& document);
 /// white pixel, with a warning.
 Document single_buffer(Document document, Report& report);
 
-/// The two chunks of a GLB, not padded yet.
-struct GlbParts {
-  std::string json;
-  std::vector<uint8_t> bin;
-};
-/// The chunks of a document with at most one buffer (see single_buffer).
-GlbParts glb_parts(const Document& document);
-
 /// The document as a GLB, with its buffers merged and its images embedded. Fails above 4 GiB.
 Result<std::vector<uint8_t>> write_glb(Document document, Report& report);
 

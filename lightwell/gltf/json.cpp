@@ -52,6 +52,8 @@ Result<Json> parse_json(Bytes text, uint64_t place) {
   }
 }
 
+std::string json_text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 const Json& member(const Json& object, const char* key) {
   if (!object.is_object()) return null;
   const auto found = object.find(key);

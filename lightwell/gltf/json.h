@@ -18,6 +18,9 @@ using Json = nlohmann::ordered_json;
 /// for the position of syntax errors.
 Result<Json> parse_json(Bytes text, uint64_t place = 0);
 
+/// The JSON as text without spaces; what is no UTF-8 in it is replaced.
+std::string json_text(const Json& json);
+
 // Lookups that never throw: a value that is missing or of another type reads as null or as the fallback.
 
 /// The member `key` of an object, null when there is none.

@@ -10,10 +10,9 @@ namespace {
 /// The new index of each element of an array, -1 for those that nothing refers to.
 std::vector<int> used_elements(const Json& json, std::string_view array) {
   std::vector<int> numbers(referenced_array(json, array).size(), -1);
-  for_each_reference(json, [&](const Json& value, std::string_view to, const std::string&) {
+  for_each_reference(json, array, [&](const Json& value, std::string_view, const ReferencePlace&) {
     const int64_t index = whole_number(value);
-    if (to == array && index >= 0 && static_cast<size_t>(index) < numbers.size())
-      numbers[static_cast<size_t>(index)] = 0;
+    if (index >= 0 && static_cast<size_t>(index) < numbers.size()) numbers[static_cast<size_t>(index)] = 0;
   });
   int next = 0;
   for (int& number : numbers)
@@ -34,10 +33,9 @@ void keep_numbered(Elements& elements, const std::vector<int>& numbers) {
 std::vector<int> drop_unused_elements(Json& json, const char* array) {
   std::vector<int> numbers = used_elements(json, array);
   if (std::find(numbers.begin(), numbers.end(), -1) == numbers.end()) return numbers;
-  for_each_reference(json, [&](Json& value, std::string_view to, const std::string&) {
+  for_each_reference(json, array, [&](Json& value, std::string_view, const ReferencePlace&) {
     const int64_t index = whole_number(value);
-    if (to == array && index >= 0 && static_cast<size_t>(index) < numbers.size())
-      value = numbers[static_cast<size_t>(index)];
+    if (index >= 0 && static_cast<size_t>(index) < numbers.size()) value = numbers[static_cast<size_t>(index)];
   });
   keep_numbered(json[array], numbers);
   if (json[array].empty()) json.erase(array);

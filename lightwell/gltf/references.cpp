@@ -55,10 +55,10 @@ constexpr std::array patterns = std::to_array<Pattern>({
 template <typename AnyJson>
 class Walk {
  public:
-  Walk(std::string_view array, const ReferenceVisitor<AnyJson>& visit) : array_(array), visit_(visit) {}
+  Walk(const Pattern& pattern, const ReferenceVisitor<AnyJson>& visit) : pattern_(pattern), visit_(visit) {}
 
   void follow(AnyJson& json, std::string_view pattern) {
-    if (pattern.empty()) return visit_(json, array_, place_);
+    if (pattern.empty()) return visit_(json, pattern_.to, ReferencePlace(pattern_.from, steps_));
     if (pattern.starts_with("[]")) return each_element(json, pattern.substr(2));
     if (pattern.starts_with('.')) pattern.remove_prefix(1);
     const size_t end = std::min(pattern.find_first_of(".["), pattern.size());
@@ -66,43 +66,61 @@ class Walk {
   }
 
  private:
+  using Step = ReferencePlace::Step;
+
   void each_element(AnyJson& json, std::string_view rest) {
     if (!json.is_array()) return;
-    for (size_t i = 0; i < json.size(); i++) step(element_name("", i), json[i], rest);
+    for (size_t i = 0; i < json.size(); i++) step(i, json[i], rest);
   }
 
   void each_member(AnyJson& json, std::string_view key, std::string_view rest) {
     if (!json.is_object()) return;
     if (!key.starts_with('*')) {
-      const auto found = json.find(std::string(key));
-      if (found != json.end()) step(found.key(), *found, rest);
+      const auto found = json.find(key);
+      if (found != json.end()) step(key, *found, rest);
       return;
     }
     for (auto& [name, value] : json.items())
       if (name.ends_with(key.substr(1))) step(name, value, rest);
   }
 
-  void step(const std::string& name, AnyJson& json, std::string_view rest) {
-    const size_t before = place_.size();
-    if (before > 0 && !name.starts_with('[')) place_ += '.';
-    place_ += name;
+  void step(const Step& taken, AnyJson& json, std::string_view rest) {
+    steps_.push_back(taken);
     follow(json, rest);
-    place_.resize(before);
+    steps_.pop_back();
   }
 
-  std::string_view array_;
+  const Pattern& pattern_;
   const ReferenceVisitor<AnyJson>& visit_;
-  std::string place_;
+  std::vector<Step> steps_;
 };
+
+template <typename AnyJson>
+void walk(AnyJson& json, std::string_view array, const ReferenceVisitor<AnyJson>& visit) {
+  for (const Pattern& pattern : patterns)
+    if (array.empty() || pattern.to == array) Walk<AnyJson>(pattern, visit).follow(json, pattern.from);
+}
 
 }  // namespace
 
-void for_each_reference(Json& json, const ReferenceVisitor<Json>& visit) {
-  for (const Pattern& pattern : patterns) Walk<Json>(pattern.to, visit).follow(json, pattern.from);
+std::string ReferencePlace::text() const {
+  std::string text;
+  for (const Step& step : steps_)
+    if (const size_t* index = std::get_if<size_t>(&step))
+      text += element_name("", *index);
+    else
+      text.append(text.empty() ? "" : ".").append(std::get<std::string_view>(step));
+  return text;
 }
 
-void for_each_reference(const Json& json, const ReferenceVisitor<const Json>& visit) {
-  for (const Pattern& pattern : patterns) Walk<const Json>(pattern.to, visit).follow(json, pattern.from);
+void for_each_reference(const Json& json, const ReferenceVisitor<const Json>& visit) { walk(json, {}, visit); }
+
+void for_each_reference(Json& json, std::string_view array, const ReferenceVisitor<Json>& visit) {
+  walk(json, array, visit);
+}
+
+void for_each_reference(const Json& json, std::string_view array, const ReferenceVisitor<const Json>& visit) {
+  walk(json, array, visit);
 }
 
 const Json& referenced_array(const Json& json, std::string_view array) {

@@ -21,12 +21,15 @@ struct Uses {
 Uses uses_of(const Json& json) {
   Uses uses{std::vector<Role>(member(json, "accessors").size(), Role::unused),
             std::vector<int>(member(json, "bufferViews").size())};
-  for_each_reference(json, [&](const Json& value, std::string_view to, const std::string& place) {
+  for_each_reference(json, "bufferViews", [&](const Json& value, std::string_view, const ReferencePlace&) {
     const auto index = static_cast<size_t>(whole_number(value));
-    if (to == "bufferViews" && index < uses.views.size()) uses.views[index]++;
-    if (to != "accessors" || index >= uses.accessors.size()) return;
-    const bool of_mesh = place.starts_with("meshes[");
-    const Role role = !of_mesh ? Role::other : place.ends_with(".indices") ? Role::indices : Role::vertices;
+    if (index < uses.views.size()) uses.views[index]++;
+  });
+  for_each_reference(json, "accessors", [&](const Json& value, std::string_view, const ReferencePlace& place) {
+    const auto index = static_cast<size_t>(whole_number(value));
+    if (index >= uses.accessors.size()) return;
+    const bool of_mesh = place.pattern().starts_with("meshes[");
+    const Role role = !of_mesh ? Role::other : place.pattern().ends_with(".indices") ? Role::indices : Role::vertices;
     Role& known = uses.accessors[index];
     known = known == Role::unused || known == role ? role : Role::other;
   });

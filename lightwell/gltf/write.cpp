@@ -103,33 +103,27 @@ Document single_buffer(Document document, Report& report) {
   return document;
 }
 
-GlbParts glb_parts(const Document& document) {
-  LW_ASSERT(document.buffers.size() <= 1);
-  GlbParts parts;
-  parts.json = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (!document.buffers.empty()) parts.bin = document.buffers[0];
-  return parts;
-}
-
 Result<std::vector<uint8_t>> write_glb(Document document, Report& report) {
-  const GlbParts parts = glb_parts(single_buffer(std::move(document), report));
+  document = single_buffer(std::move(document), report);
+  const std::string json = json_text(document.json);
+  const Bytes bin = document.buffers.empty() ? Bytes() : Bytes(document.buffers[0]);
   const auto padded = [](size_t size) { return (size + 3) / 4 * 4; };
-  const size_t bin_size = parts.bin.empty() ? 0 : 8 + padded(parts.bin.size());
-  const size_t size = 20 + padded(parts.json.size()) + bin_size;
+  const size_t bin_size = bin.empty() ? 0 : 8 + padded(bin.size());
+  const size_t size = 20 + padded(json.size()) + bin_size;
   if (size > std::numeric_limits<uint32_t>::max()) return fail(ErrorKind::limit, "GLB", "would be larger than 4 GiB");
 
   ByteWriter writer;
   writer.u32(glb_magic);
   writer.u32(2);
   writer.u32(static_cast<uint32_t>(size));
-  writer.u32(static_cast<uint32_t>(padded(parts.json.size())));
+  writer.u32(static_cast<uint32_t>(padded(json.size())));
   writer.u32(glb_json_chunk);
-  writer.append(as_bytes(parts.json));
+  writer.append(as_bytes(json));
   writer.align(4, ' ');
-  if (parts.bin.empty()) return writer.release();
-  writer.u32(static_cast<uint32_t>(padded(parts.bin.size())));
+  if (bin.empty()) return writer.release();
+  writer.u32(static_cast<uint32_t>(padded(bin.size())));
   writer.u32(glb_bin_chunk);
-  writer.append(parts.bin);
+  writer.append(bin);
   writer.align(4);
   return writer.release();
 }

@@ -43,11 +43,17 @@ Result<BasePlaces> BasePlaces::read(ByteReader& reader) {
   return places;
 }
 
+bool BasePlaces::only_of(const MeshLayout& layout) const {
+  return (layout.has_normals || normals == 0) && (layout.has_texcoords[0] || texcoords[0] == 0) &&
+         (layout.has_texcoords[1] || texcoords[1] == 0) && (layout.has_colors || colors == 0);
+}
+
 Result<MeshParameters> MeshParameters::read(Bytes parameters) {
   ByteReader reader(parameters);
   LW_TRY(layout, MeshLayout::read(reader));
   LW_TRY(places, BasePlaces::read(reader));
   if (reader.remaining() != 0) return fail("mesh parameters", "are too long");
+  if (!places.only_of(layout)) return fail("mesh parameters", "a place of an attribute that there is not");
   return MeshParameters{layout, places};
 }
 

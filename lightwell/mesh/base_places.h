@@ -17,6 +17,8 @@ struct BasePlaces {
 
   void write(ByteWriter& writer) const;
   static Result<BasePlaces> read(ByteReader& reader);
+  /// Whether the places of the attributes that the layout does not have are 0.
+  bool only_of(const MeshLayout& layout) const;
 };
 
 /// The parameters of a mesh stream (docs/format.md): all that is known before its first block.
@@ -24,7 +26,7 @@ struct MeshParameters {
   MeshLayout layout;
   BasePlaces places;
 
-  /// Errors: those of the two parts, and trailing bytes.
+  /// Errors: those of the two parts, places of attributes that the layout does not have, and trailing bytes.
   static Result<MeshParameters> read(Bytes parameters);
 };
 

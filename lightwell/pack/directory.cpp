@@ -87,6 +87,13 @@ std::vector<uint8_t> Directory::write() const {
   writer.u32(opening_length);
   writer.u32(opening_check);
   writer.u32(static_cast<uint32_t>(streams.size()));
+  writer.append(write_streams());
+  writer.u32(crc32c(writer.bytes()));
+  return writer.release();
+}
+
+std::vector<uint8_t> Directory::write_streams() const {
+  ByteWriter writer;
   for (const StreamEntry& entry : streams) {
     writer.u8(static_cast<uint8_t>(entry.kind));
     writer.u8(entry.codec);
@@ -99,7 +106,6 @@ std::vector<uint8_t> Directory::write() const {
     writer.append(entry.parameters);
     write_rows(writer, entry.rows);
   }
-  writer.u32(crc32c(writer.bytes()));
   return writer.release();
 }
 

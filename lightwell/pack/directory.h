@@ -23,8 +23,8 @@ constexpr uint32_t max_streams = 65536;
 constexpr uint32_t max_parameter_bytes = 65536;  ///< of a stream's parameters
 constexpr uint32_t max_stream_blocks = 1u << 22;
 
-/// 128 bits that identify the content of a pack: the XXH3-128 of the opening's BIN data and all payloads, in canonical
-/// byte order.
+/// 128 bits that identify the content of a pack: the XXH3-128 of the opening's BIN data, the directory's streams and
+/// all payloads, in canonical byte order.
 using PackId = std::array<uint8_t, 16>;
 
 /// The id as 32 hexadecimal digits.
@@ -65,6 +65,8 @@ struct Directory {
   /// Length in bytes when written.
   size_t byte_length() const;
   std::vector<uint8_t> write() const;
+  /// The streams alone as they are written, which is what the id covers of the directory.
+  std::vector<uint8_t> write_streams() const;
 
   /// Reads a directory in a file of `file_length` bytes. Fails for a wrong version or check, an exceeded limit, streams
   /// that do not follow the directory one after another and fill the file, and rows that do not fit into their stream.

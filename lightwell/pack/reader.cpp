@@ -156,6 +156,7 @@ Result<std::vector<uint8_t>> PackReader::payload(size_t stream, uint32_t index) 
 Result<void> PackReader::verify_id() const {
   ContentHash hash;
   hash.update(glb_chunks(opening_).bin);
+  hash.update(directory_.write_streams());
   for (size_t stream = 0; stream < tables_.size(); stream++) {
     for (uint32_t i = 0; i < tables_[stream].extents(); i++) {
       LW_TRY(bytes, payload(stream, i));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "lightwell/base/crc32c.h"
 #include "lightwell/pack/block_table.h"
@@ -45,8 +46,10 @@ Result<StreamEntry> entry_of(const PackStream& stream, size_t index) {
 }
 
 /// The payloads of a stream in the order of the file: its blocks, with a table page after each 64th while more follow.
-std::vector<std::vector<uint8_t>> payloads_of(PackStream stream) {
-  std::vector<std::vector<uint8_t>> payloads;
+using Payloads = std::vector<std::vector<uint8_t>>;
+
+Payloads payloads_of(PackStream stream) {
+  Payloads payloads;
   const size_t count = stream.blocks.size();
   for (size_t i = 0; i < count; i++) {
     payloads.push_back(std::move(stream.blocks[i].payload));
@@ -59,6 +62,30 @@ std::vector<std::vector<uint8_t>> payloads_of(PackStream stream) {
     payloads.push_back(page.release());
   }
   return payloads;
+}
+
+/// Says where the streams will lie: one behind the other, the first behind the directory.
+Result<void> place_streams(std::vector<StreamEntry>& streams, std::span<const Payloads> payloads) {
+  const size_t directory_length = Directory{{}, 0, 0, streams}.byte_length();
+  if (directory_length > max_directory_bytes) return fail(ErrorKind::limit, "pack", "its directory exceeds 64 MiB");
+  uint64_t end = directory_length;
+  for (size_t i = 0; i < streams.size(); i++) {
+    const uint64_t first = end;
+    for (const std::vector<uint8_t>& payload : payloads[i]) end += payload.size() + block_check_bytes;
+    if (end > max_file_bytes) return fail(ErrorKind::limit, "pack", "exceeds the 4 GiB of a binary glTF");
+    streams[i].first = static_cast<uint32_t>(first);
+    streams[i].length = static_cast<uint32_t>(end - first);
+  }
+  return {};
+}
+
+PackId id_of(Bytes bin, const std::vector<StreamEntry>& streams, std::span<const Payloads> payloads) {
+  ContentHash hash;
+  hash.update(bin);
+  hash.update(Directory{{}, 0, 0, streams}.write_streams());
+  for (const Payloads& stream : payloads)
+    for (const std::vector<uint8_t>& payload : stream) hash.update(payload);
+  return hash.finish();
 }
 
 void append_chunk_header(ByteWriter& file, size_t length, uint32_t type) {
@@ -76,33 +103,22 @@ Result<PackWriter> PackWriter::create(std::vector<uint8_t> bin, std::vector<Pack
   bin.resize(padded(bin.size()));
   writer.bin_ = std::move(bin);
 
-  std::vector<std::vector<std::vector<uint8_t>>> payloads;
+  std::vector<Payloads> payloads;
   for (size_t i = 0; i < streams.size(); i++) {
     LW_TRY(entry, entry_of(streams[i], i));
     writer.plan_.streams.push_back(std::move(entry));
     payloads.push_back(payloads_of(std::move(streams[i])));
   }
-  ContentHash hash;
-  hash.update(writer.bin_);
-  for (const auto& stream : payloads)
-    for (const auto& payload : stream) hash.update(payload);
-  writer.plan_.id = hash.finish();
+  LW_CHECK(place_streams(writer.plan_.streams, payloads));
+  writer.plan_.id = id_of(writer.bin_, writer.plan_.streams, payloads);
 
-  Directory directory{writer.plan_.id, 0, 0, writer.plan_.streams};
-  const size_t directory_length = directory.byte_length();
-  if (directory_length > max_directory_bytes) return fail(ErrorKind::limit, "pack", "its directory exceeds 64 MiB");
   ByteWriter data;
-  for (size_t i = 0; i < payloads.size(); i++) {
-    const size_t begin = data.size();
-    for (const std::vector<uint8_t>& payload : payloads[i]) {
+  for (Payloads& stream : payloads) {
+    for (const std::vector<uint8_t>& payload : stream) {
       data.append(payload);
       data.u32(block_check(payload, writer.plan_.id));
     }
-    if (directory_length + data.size() > max_file_bytes)
-      return fail(ErrorKind::limit, "pack", "exceeds the 4 GiB of a binary glTF");
-    writer.plan_.streams[i].first = static_cast<uint32_t>(directory_length + begin);
-    writer.plan_.streams[i].length = static_cast<uint32_t>(data.size() - begin);
-    payloads[i].clear();
+    stream.clear();
   }
   writer.data_ = data.release();
   return writer;

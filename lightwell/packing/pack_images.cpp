@@ -62,11 +62,11 @@ struct Shrunk {
   std::optional<StreamedImage> streamed;
 };
 
-Shrunk shrink(const Scene& scene, int index, bool color, int side) {
+Shrunk shrink(const Scene& scene, const Document& document, int index, bool color, int side) {
   const Image& image = scene.images[static_cast<size_t>(index)];
   Shrunk shrunk{write_preview(image, side, color), ImageFormat::png, {}};
   shrunk.format = image_format(shrunk.opening).value_or(ImageFormat::png);
-  auto file = read_image(scene.document, index);
+  auto file = read_image(document, index);
   const auto format = file ? image_format(*file) : std::nullopt;
   if (!format) return shrunk;
   if (*format != ImageFormat::webp && file->size() <= shrunk.opening.size() + stream_worth_bytes) {
@@ -93,7 +93,7 @@ std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document)
   const int side = preview_side(static_cast<size_t>(std::count(used.begin(), used.end(), true)));
   for (size_t i = 0; i < scene.images.size(); i++) {
     if (!used[i]) continue;
-    Shrunk shrunk = shrink(scene, static_cast<int>(i), color[i], side);
+    Shrunk shrunk = shrink(scene, document, static_cast<int>(i), color[i], side);
     if (shrunk.streamed) streamed.push_back(std::move(*shrunk.streamed));
     const int view = DocumentBuilder(document).buffer_view(shrunk.opening);
     Json& json = document.json["images"][i];

@@ -17,28 +17,38 @@ Json& primitive_json(Json& json, const Primitive& primitive) {
              [static_cast<size_t>(primitive.source_primitive)];
 }
 
-// Replaces the arrays of a primitive by those of `mesh`; keeps material, extras and extensions. Collects the names of
-// attributes that Mesh does not support in `lost`.
-void replace_arrays(Document& document, const Primitive& primitive, const Mesh& mesh, std::set<std::string>& lost) {
+bool has_attribute(const Mesh& mesh, const std::string& name) {
+  return name == "POSITION" || (name == "NORMAL" && !mesh.normals.empty()) ||
+         (name == "TEXCOORD_0" && !mesh.texcoords[0].empty()) || (name == "TEXCOORD_1" && !mesh.texcoords[1].empty()) ||
+         (name == "COLOR_0" && !mesh.colors.empty());
+}
+
+// Takes the arrays of a primitive away; keeps material, extras and extensions. Collects the names of attributes that
+// `mesh`, which is to take its place, does not have in `lost`.
+void take_arrays(Json& primitive, const Mesh& mesh, std::set<std::string>& lost) {
+  for (const auto& attribute : primitive["attributes"].items())
+    if (!has_attribute(mesh, attribute.key())) lost.insert(attribute.key().substr(0, 40));
+  for (const char* name : {"mode", "attributes", "indices"}) primitive.erase(name);
+}
+
+void give_arrays(Document& document, const Primitive& primitive, const Mesh& mesh) {
   const Json arrays = DocumentBuilder(document).primitive(mesh);
-  Json& json = primitive_json(document.json, primitive);
-  for (const auto& attribute : json["attributes"].items())
-    if (!arrays["attributes"].contains(attribute.key())) lost.insert(attribute.key().substr(0, 40));
-  json.erase("mode");
-  json["attributes"] = arrays["attributes"];
-  json["indices"] = arrays["indices"];
+  primitive_json(document.json, primitive).update(arrays);
 }
 
 // Replaces the arrays of every mesh that does not deform by those of the opening: the coarsest level when it is
-// streamed, else the whole mesh.
+// streamed, else the whole mesh. The old arrays go first: of scenes of very many parts the JSON is most of the memory.
 void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed, Document& document, Report& report) {
   std::vector<const Mesh*> shown(scene.primitives.size());
   for (size_t i = 0; i < shown.size(); i++) shown[i] = &scene.primitives[i].mesh;
   for (const StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = &mesh.encoded.base;
+  const auto replaced = [&](size_t i) { return !scene.primitives[i].deforming && !shown[i]->faces.empty(); };
   std::set<std::string> lost;
   for (size_t i = 0; i < shown.size(); i++)
-    if (!scene.primitives[i].deforming && !shown[i]->faces.empty())
-      replace_arrays(document, scene.primitives[i], *shown[i], lost);
+    if (replaced(i)) take_arrays(primitive_json(document.json, scene.primitives[i]), *shown[i], lost);
+  drop_unused(document);
+  for (size_t i = 0; i < shown.size(); i++)
+    if (replaced(i)) give_arrays(document, scene.primitives[i], *shown[i]);
   std::string names;
   for (const std::string& name : lost)
     if (names.size() < 400) names += (names.empty() ? "" : ", ") + name;
@@ -156,14 +166,14 @@ void count(const PackPlan& plan, size_t file_bytes, PackStatistics& statistics) 
 
 }  // namespace
 
-Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& light, const PackOptions& options,
+Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, const PackOptions& options,
                                        Progress& progress, Report& report, PackStatistics& statistics) {
   PackContent content;
   content.grids = light.grids.size();
   LW_TRY(meshes, encode_meshes(scene, options, progress));
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
-  Document document = scene.document;
+  Document document = std::move(scene.document);
   name_scene(document.json, scene.name);
   shrink_meshes(scene, content.meshes, document, report);
   if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
@@ -186,14 +196,15 @@ Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& ligh
   }
   for (const StreamedImage& image : content.images) streams.push_back(image_stream(image));
 
-  GlbParts parts = glb_parts(document);
-  LW_TRY(writer, PackWriter::create(std::move(parts.bin), std::move(streams)));
-  add_pack_identity(document.json, writer.plan().id, light.exposure, scene.origin);
-  const std::string json = glb_parts(document).json;
-  LW_CHECK(check_self_contained(json));
-  auto file = writer.finish(json);
-  if (!file) return fail(file.error());
   count(scene, statistics);
+  std::vector<uint8_t> bin;
+  if (!document.buffers.empty()) bin = std::move(document.buffers[0]);
+  LW_TRY(writer, PackWriter::create(std::move(bin), std::move(streams)));
+  add_pack_identity(document.json, writer.plan().id, light.exposure, scene.origin);
+  std::string json = json_text(std::exchange(document.json, {}));
+  LW_CHECK(check_self_contained(json));
+  auto file = writer.finish(std::move(json));
+  if (!file) return fail(file.error());
   count(writer.plan(), file->size(), statistics);
   return file;
 }

@@ -18,7 +18,7 @@ struct PackStatistics {
 /// image, and the streams that refine them: light grids, then meshes by decreasing error, then images. Deforming
 /// meshes, lines and points go into the opening as they are. Fails when cancelled or when a limit of the format is
 /// exceeded.
-Result<std::vector<uint8_t>> make_pack(const Scene& scene, const PackLight& light, const PackOptions& options,
+Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, const PackOptions& options,
                                        Progress& progress, Report& report, PackStatistics& statistics);
 
 }  // namespace lightwell

@@ -48,12 +48,19 @@ Result<void> verify_images(const OpenedPack& pack, const Scene& scene) {
   return {};
 }
 
+// A sky of one colour stands in the JSON, and its light in the grids.
+Result<void> verify_sky(const OpenedPack& pack, const Scene& scene) {
+  if (scene.environment.radiance == Vec3f{} || contents_of(pack.grids()).environment) return {};
+  return fail(grids_extension, "no grid has the light of the scene's sky");
+}
+
 }  // namespace
 
 Result<void> verify_scene(const OpenedPack& pack) {
   LW_CHECK(scene_at(pack, {.share = 0}));
   LW_TRY(scene, scene_at(pack, {}));
   LW_CHECK(verify_bounds(pack, scene));
+  LW_CHECK(verify_sky(pack, scene));
   return verify_images(pack, scene);
 }
 

@@ -31,6 +31,12 @@ std::optional<Lamp::Kind> kind_of(const std::string& type) {
   return std::nullopt;
 }
 
+/// A side of a camera's picture; 0 where there is none, or one that no picture has.
+int picture_side(const Json& extras, const char* key) {
+  const int side = index_of(extras, key);
+  return side <= largest_picture_side ? std::max(0, side) : 0;
+}
+
 }  // namespace
 
 std::optional<Lamp> read_lamp(const Json& document, int node_index, const Transform& to_scene, Report& report) {
@@ -77,8 +83,8 @@ std::optional<Camera> read_camera(const Json& document, int node_index, const Tr
   camera.to_scene.t = to_scene.t;
   camera.yfov = static_cast<float>(std::clamp(number(perspective, "yfov", 0.8), 1e-3, 3.1));
   camera.aspect = clamped(number(perspective, "aspectRatio", 0), 1e3);
-  camera.width = std::max(0, index_of(member(json, "extras"), "width"));
-  camera.height = std::max(0, index_of(member(json, "extras"), "height"));
+  camera.width = picture_side(member(json, "extras"), "width");
+  camera.height = picture_side(member(json, "extras"), "height");
   return camera;
 }
 

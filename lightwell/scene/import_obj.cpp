@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <sstream>
 #include <unordered_map>
 
@@ -21,7 +22,6 @@ namespace {
 struct Obj {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
   std::vector<Vec3f> positions;
   bool has_colors = false;
 };
@@ -72,10 +72,11 @@ Result<Obj> read_obj(const std::string& text, ObjMaterialReader& materials, Repo
   Obj obj;
   std::istringstream stream(text);
   std::string warning, error;
+  std::vector<tinyobj::material_t> none;  // the reader keeps the materials
   constexpr bool triangulate = false, color_everywhere = true;
   try {
-    if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error, &stream, &materials,
-                          triangulate, color_everywhere))
+    if (!tinyobj::LoadObj(&obj.attributes, &obj.shapes, &none, &warning, &error, &stream, &materials, triangulate,
+                          color_everywhere))
       return fail("", error.substr(0, error.find('\n')));
   } catch (const std::exception& exception) {
     return fail("", exception.what());
@@ -90,21 +91,36 @@ Result<Obj> read_obj(const std::string& text, ObjMaterialReader& materials, Repo
   return obj;
 }
 
-/// Calls visit(material, a, b, c) for every triangle of a shape, a to c being its corners.
+/// A face of a shape.
+struct Polygon {
+  std::span<const tinyobj::index_t> corners;
+  int material = 0;
+};
+
+std::vector<Polygon> polygons_of(const tinyobj::shape_t& shape) {
+  std::vector<Polygon> polygons;
+  polygons.reserve(shape.mesh.num_face_vertices.size());
+  std::span<const tinyobj::index_t> rest = shape.mesh.indices;
+  for (size_t face = 0; face < shape.mesh.num_face_vertices.size(); face++) {
+    const size_t count = shape.mesh.num_face_vertices[face];
+    polygons.push_back({rest.first(count), shape.mesh.material_ids[face]});
+    rest = rest.subspan(count);
+  }
+  return polygons;
+}
+
+/// Calls visit(a, b, c) for every triangle of the polygons, a to c being its corners.
 template <typename Visit>
-void for_each_triangle(const Obj& obj, const tinyobj::shape_t& shape, const Visit& visit) {
+void for_each_triangle(const Obj& obj, std::span<const Polygon> polygons, const Visit& visit) {
   std::vector<Vec3f> points;
   std::vector<Face> triangles;
-  size_t first = 0;
-  for (size_t face = 0; face < shape.mesh.num_face_vertices.size(); face++) {
-    const tinyobj::index_t* corners = shape.mesh.indices.data() + first;
-    const size_t count = shape.mesh.num_face_vertices[face];
-    first += count;
+  for (const Polygon& polygon : polygons) {
     points.clear();
     triangles.clear();
-    for (size_t i = 0; i < count; i++) points.push_back(obj.positions[static_cast<size_t>(corners[i].vertex_index)]);
+    for (const tinyobj::index_t& corner : polygon.corners)
+      points.push_back(obj.positions[static_cast<size_t>(corner.vertex_index)]);
     triangulate(points, triangles);
-    for (const Face& t : triangles) visit(shape.mesh.material_ids[face], corners[t[0]], corners[t[1]], corners[t[2]]);
+    for (const Face& t : triangles) visit(polygon.corners[t[0]], polygon.corners[t[1]], polygon.corners[t[2]]);
   }
 }
 
@@ -114,7 +130,7 @@ std::vector<Vec3f> normals_of_positions(const Obj& obj) {
   whole.positions = obj.positions;
   for (const tinyobj::shape_t& shape : obj.shapes) {
     for_each_triangle(
-        obj, shape, [&](int, const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
+        obj, polygons_of(shape), [&](const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
           whole.faces.push_back({static_cast<uint32_t>(a.vertex_index), static_cast<uint32_t>(b.vertex_index),
                                  static_cast<uint32_t>(c.vertex_index)});
         });
@@ -178,8 +194,7 @@ class WeldedMesh {
 /// The glTF materials that stand for the library's, each at most once with and once without textures.
 class MaterialTable {
  public:
-  MaterialTable(const Obj& obj, const ObjMaterialReader& reader, SceneBuilder& scene)
-      : obj_(obj), reader_(reader), scene_(scene) {}
+  MaterialTable(const ObjMaterialReader& reader, SceneBuilder& scene) : reader_(reader), scene_(scene) {}
 
   int material(int index, bool has_texcoords) {
     const auto [place, is_new] = made_.try_emplace({index, has_texcoords}, 0);
@@ -190,32 +205,40 @@ class MaterialTable {
  private:
   int make(int index, bool has_texcoords) {
     if (index < 0) return scene_.material(Lambertian{.name = "surface", .double_sided = true});
-    const auto i = static_cast<size_t>(index);
-    return reader_.add_to(scene_, obj_.materials[i], i, has_texcoords);
+    return reader_.add_to(scene_, static_cast<size_t>(index), has_texcoords);
   }
 
-  const Obj& obj_;
   const ObjMaterialReader& reader_;
   SceneBuilder& scene_;
   std::map<std::pair<int, bool>, int> made_;
 };
 
-/// Adds a shape as a node with a primitive for each material.
-void add_shape(const Obj& obj, const tinyobj::shape_t& shape, const std::vector<Vec3f>& smooth,
-               MaterialTable& materials, const Vec3d& origin, SceneBuilder& scene) {
-  std::map<int, WeldedMesh> meshes;
-  for_each_triangle(obj, shape,
-                    [&](int material, const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
-                      WeldedMesh& welded = meshes.try_emplace(material, obj, smooth).first->second;
-                      welded.mesh.faces.push_back({welded.vertex(a), welded.vertex(b), welded.vertex(c)});
-                    });
-  std::vector<SceneBuilder::Part> parts;
-  for (auto& [material, welded] : meshes) {
+/// The polygons of a shape in parts of one material each.
+std::vector<std::vector<Polygon>> parts_of(const tinyobj::shape_t& shape) {
+  std::map<int, std::vector<Polygon>> by_material;
+  for (const Polygon& polygon : polygons_of(shape)) by_material[polygon.material].push_back(polygon);
+  std::vector<std::vector<Polygon>> parts;
+  for (auto& [material, polygons] : by_material) parts.push_back(std::move(polygons));
+  return parts;
+}
+
+/// Adds a shape as a node with a primitive for each material. They are made one after the other, since there may be
+/// very many.
+void add_shape(const Obj& obj, const std::string& name, std::span<const std::vector<Polygon>> parts,
+               const std::vector<Vec3f>& smooth, MaterialTable& materials, const Vec3d& origin, SceneBuilder& scene) {
+  Json primitives = Json::array();
+  for (const std::vector<Polygon>& part : parts) {
+    WeldedMesh welded(obj, smooth);
+    for_each_triangle(obj, part, [&](const tinyobj::index_t& a, const tinyobj::index_t& b, const tinyobj::index_t& c) {
+      welded.mesh.faces.push_back({welded.vertex(a), welded.vertex(b), welded.vertex(c)});
+    });
+    if (welded.mesh.faces.empty()) continue;
     if (!welded.has_texcoords) welded.mesh.texcoords[0].clear();
     complete_normals(welded.mesh);
-    parts.push_back({welded.mesh, materials.material(material, welded.has_texcoords)});
+    primitives.push_back(
+        scene.primitive({welded.mesh, materials.material(part.front().material, welded.has_texcoords)}));
   }
-  if (!parts.empty()) scene.object(shape.name, parts, origin);
+  if (!primitives.empty()) scene.object_of(name, std::move(primitives), origin);
 }
 
 }  // namespace
@@ -227,11 +250,17 @@ Result<Document> obj_document(Bytes file, const std::filesystem::path& folder, R
   LW_TRY(obj, read_obj(text, materials, report));
   const std::vector<Vec3f> smooth = normals_of_positions(obj);
   SceneBuilder scene;
-  MaterialTable table(obj, materials, scene);
-  size_t faces = 0;
+  MaterialTable table(materials, scene);
+  size_t faces = 0, parts = 0;
   for (const tinyobj::shape_t& shape : obj.shapes) {
     faces += shape.mesh.num_face_vertices.size();
-    add_shape(obj, shape, smooth, table, origin, scene);
+    const std::vector<std::vector<Polygon>> own = parts_of(shape);
+    parts += own.size();
+    if (parts > most_obj_parts)
+      return fail(
+          ErrorKind::limit, "",
+          "has more than " + std::to_string(most_obj_parts) + " parts, faces of one shape and one material each");
+    add_shape(obj, shape.name, own, smooth, table, origin, scene);
   }
   if (faces == 0) return fail("", "has no faces");
   Document document = scene.release();

@@ -2,8 +2,10 @@
 #include "lightwell/scene/obj_materials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 
 #include "lightwell/gltf/resource.h"
 #include "lightwell/scene/cutout.h"
@@ -21,63 +23,97 @@ Vec3f clamped(const float (&rgb)[3], float most) {
 }
 
 /// The visible properties of a material that are not read, by their names in the file.
-std::vector<std::string> unread(const tinyobj::material_t& material) {
+constexpr std::array unread_names = {"Ks", "Pm", "Pr", "bump", "norm", "map_Ks", "map_Pm", "map_Pr"};
+
+/// A bit for each of those that a material has.
+uint32_t unread(const tinyobj::material_t& material) {
   constexpr int glossy = 2;  // illum from here on asks for highlights
-  std::vector<std::string> names;
-  const auto add = [&](bool set, const char* name) {
-    if (set) names.push_back(name);
-  };
-  add(material.illum >= glossy && max_component(clamped(material.specular, 1)) > 0, "Ks");
-  add(material.metallic > 0, "Pm");
-  add(material.roughness > 0, "Pr");
-  add(!material.bump_texname.empty() || !material.displacement_texname.empty(), "bump");
-  add(!material.normal_texname.empty(), "norm");
-  add(!material.specular_texname.empty(), "map_Ks");
-  add(!material.metallic_texname.empty(), "map_Pm");
-  add(!material.roughness_texname.empty(), "map_Pr");
-  return names;
+  const std::array<bool, unread_names.size()> set = {
+      material.illum >= glossy && max_component(clamped(material.specular, 1)) > 0,
+      material.metallic > 0,
+      material.roughness > 0,
+      !material.bump_texname.empty() || !material.displacement_texname.empty(),
+      !material.normal_texname.empty(),
+      !material.specular_texname.empty(),
+      !material.metallic_texname.empty(),
+      !material.roughness_texname.empty()};
+  uint32_t bits = 0;
+  for (size_t i = 0; i < set.size(); i++) bits |= uint32_t(set[i]) << i;
+  return bits;
+}
+
+ObjMaterial material_of(const tinyobj::material_t& material, size_t folder) {
+  return {.name = material.name,
+          .color = clamped(material.diffuse, 1),
+          .emission = clamped(material.emission, 1e9f),
+          .opacity = clamped(material.dissolve, 1),
+          .color_map = material.diffuse_texname,
+          .emission_map = material.emissive_texname,
+          .opacity_map = material.alpha_texname,
+          .unread = unread(material),
+          .folder = static_cast<uint32_t>(folder)};
+}
+
+/// The first materials of an MTL text, which are taken off it.
+std::string take_some(std::string_view& text) {
+  constexpr size_t enough = 64 << 10;
+  const size_t next = text.size() > enough ? text.find("\nnewmtl ", enough) : text.npos;
+  const std::string some(text.substr(0, next == text.npos ? next : next + 1));
+  text.remove_prefix(some.size());
+  return some;
 }
 
 }  // namespace
 
-bool ObjMaterialReader::operator()(const std::string& names, std::vector<tinyobj::material_t>* materials,
+bool ObjMaterialReader::operator()(const std::string& names, std::vector<tinyobj::material_t>*,
                                    std::map<std::string, int>* indices, std::string*, std::string*) {
-  if (read(names, materials, indices)) return true;
+  if (read(names, *indices)) return true;
   // Not one file with spaces in its name: perhaps several files.
   bool any = false;
   std::istringstream words(names);
-  for (std::string name; words >> name && name != names;) any |= read(name, materials, indices);
+  for (std::string name; words >> name && name != names;) any |= read(name, *indices);
   if (!any) report_.warn("mtllib " + names.substr(0, 80) + ": no such file below the OBJ file's folder");
   return any;
 }
 
-bool ObjMaterialReader::read(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                             std::map<std::string, int>* indices) {
+bool ObjMaterialReader::read(const std::string& name, std::map<std::string, int>& indices) {
   const auto file = read_uri(as_uri(name), folder_);
   if (!file) return false;
-  std::istringstream text(checked_mtl_text(*file));
-  std::string warning, error;
-  tinyobj::LoadMtl(indices, materials, &text, &warning, &error);
-  folder_of_material_.resize(materials->size(), std::filesystem::path(name).parent_path());
+  folders_.push_back(std::filesystem::path(name).parent_path());
+  const std::string text = checked_mtl_text(*file);
+  std::string_view rest = text;
+  do read_some(take_some(rest), indices);
+  while (!rest.empty());
   return true;
 }
 
-std::string ObjMaterialReader::texture_uri(const std::string& name, size_t material) const {
-  return as_uri((folder_of_material_[material] / name).lexically_normal().generic_string());
+void ObjMaterialReader::read_some(const std::string& text, std::map<std::string, int>& indices) {
+  std::istringstream stream(text);
+  std::string warning, error;
+  std::map<std::string, int> own_indices;
+  std::vector<tinyobj::material_t> some;
+  tinyobj::LoadMtl(&own_indices, &some, &stream, &warning, &error);
+  for (const tinyobj::material_t& material : some) {
+    indices.emplace(material.name, static_cast<int>(materials_.size()));  // of several of one name the first counts
+    materials_.push_back(material_of(material, folders_.size() - 1));
+  }
 }
 
-Json ObjMaterialReader::texture(SceneBuilder& scene, const std::string& name, size_t material) const {
+std::string ObjMaterialReader::texture_uri(const std::string& name, const ObjMaterial& material) const {
+  return as_uri((folders_[material.folder] / name).lexically_normal().generic_string());
+}
+
+Json ObjMaterialReader::texture(SceneBuilder& scene, const std::string& name, const ObjMaterial& material) const {
   return {{"index", scene.texture(texture_uri(name, material))}};
 }
 
 /// glTF has a colour's opacity in the alpha of its image: the map of another image becomes that.
-void ObjMaterialReader::add_opacity(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,
-                                    Json& json) const {
+void ObjMaterialReader::add_opacity(SceneBuilder& scene, const ObjMaterial& material, Json& json) const {
   json["alphaMode"] = "MASK";
-  if (material.alpha_texname == material.diffuse_texname) return;
-  const auto mask = read_uri(texture_uri(material.alpha_texname, index), folder_);
-  auto color = material.diffuse_texname.empty() ? Result<std::vector<uint8_t>>()
-                                                : read_uri(texture_uri(material.diffuse_texname, index), folder_);
+  if (material.opacity_map == material.color_map) return;
+  const auto mask = read_uri(texture_uri(material.opacity_map, material), folder_);
+  auto color = material.color_map.empty() ? Result<std::vector<uint8_t>>()
+                                          : read_uri(texture_uri(material.color_map, material), folder_);
   const Result<std::vector<uint8_t>> cut =
       mask && color ? cut_out(*color, *mask, limit_) : fail(mask ? color.error() : mask.error());
   if (cut)
@@ -87,29 +123,28 @@ void ObjMaterialReader::add_opacity(SceneBuilder& scene, const tinyobj::material
                  ": map_d is left out: " + naming_image_option(cut.error()).message());
 }
 
-int ObjMaterialReader::add_to(SceneBuilder& scene, const tinyobj::material_t& material, size_t index,
-                              bool has_texcoords) const {
-  for (const std::string& name : unread(material))
-    report_.warn("materials: " + name + " is not supported and left out; surfaces are diffuse");
-  Json json = lambertian_json({.name = material.name,
-                               .color = clamped(material.diffuse, 1),
-                               .emission = clamped(material.emission, 1e9f),
-                               .double_sided = true});
-  if (has_texcoords && !material.diffuse_texname.empty())
-    json["pbrMetallicRoughness"]["baseColorTexture"] = texture(scene, material.diffuse_texname, index);
-  if (has_texcoords && !material.emissive_texname.empty()) {
-    json["emissiveTexture"] = texture(scene, material.emissive_texname, index);
+int ObjMaterialReader::add_to(SceneBuilder& scene, size_t index, bool has_texcoords) const {
+  const ObjMaterial& material = materials_[index];
+  for (size_t i = 0; i < unread_names.size(); i++)
+    if ((material.unread >> i & 1) != 0)
+      report_.warn(std::string("materials: ") + unread_names[i] +
+                   " is not supported and left out; surfaces are diffuse");
+  Json json = lambertian_json(
+      {.name = material.name, .color = material.color, .emission = material.emission, .double_sided = true});
+  if (has_texcoords && !material.color_map.empty())
+    json["pbrMetallicRoughness"]["baseColorTexture"] = texture(scene, material.color_map, material);
+  if (has_texcoords && !material.emission_map.empty()) {
+    json["emissiveTexture"] = texture(scene, material.emission_map, material);
     // A map without a factor is meant to be seen.
-    if (max_component(clamped(material.emission, 1e9f)) == 0) json["emissiveFactor"] = {1, 1, 1};
+    if (max_component(material.emission) == 0) json["emissiveFactor"] = {1, 1, 1};
   }
-  if (!has_texcoords && !(material.diffuse_texname.empty() && material.alpha_texname.empty()))
+  if (!has_texcoords && !(material.color_map.empty() && material.opacity_map.empty()))
     report_.warn("material " + material.name.substr(0, 80) + ": its textures are left out where faces have no vt");
-  const float opacity = clamped(material.dissolve, 1);
-  if (opacity < 1) {
-    json["pbrMetallicRoughness"]["baseColorFactor"][3] = opacity;
+  if (material.opacity < 1) {
+    json["pbrMetallicRoughness"]["baseColorFactor"][3] = material.opacity;
     json["alphaMode"] = "BLEND";
   }
-  if (has_texcoords && !material.alpha_texname.empty()) add_opacity(scene, material, index, json);
+  if (has_texcoords && !material.opacity_map.empty()) add_opacity(scene, material, json);
   return scene.material(std::move(json));
 }
 

@@ -83,6 +83,8 @@ struct Lamp {
   int node = -1;  ///< of Scene::document
 };
 
+constexpr int largest_picture_side = 16384;  ///< pixels, of a picture that Lightwell makes
+
 struct Camera {
   std::string name;
   Transform to_scene;  ///< looks along its -z, y up

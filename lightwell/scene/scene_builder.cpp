@@ -59,13 +59,19 @@ int SceneBuilder::texture(const std::vector<uint8_t>& png) {
                       {{"source", builder_.add("images", {{"bufferView", view}, {"mimeType", "image/png"}})}});
 }
 
+Json SceneBuilder::primitive(const Part& part) {
+  Json primitive = builder_.primitive(part.mesh);
+  primitive["material"] = part.material;
+  return primitive;
+}
+
 void SceneBuilder::object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin) {
   Json primitives = Json::array();
-  for (const Part& part : parts) {
-    Json primitive = builder_.primitive(part.mesh);
-    primitive["material"] = part.material;
-    primitives.push_back(std::move(primitive));
-  }
+  for (const Part& part : parts) primitives.push_back(primitive(part));
+  object_of(name, std::move(primitives), origin);
+}
+
+void SceneBuilder::object_of(const std::string& name, Json primitives, const Vec3d& origin) {
   Json shown = {{"name", name},
                 {"mesh", builder_.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}})}};
   if (origin != Vec3d{}) shown["translation"] = origin.e;

@@ -44,6 +44,9 @@ class SceneBuilder {
   int texture(const std::vector<uint8_t>& png);
   /// A node with a mesh of these parts, whose positions are counted from `origin`.
   void object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin = {});
+  /// The same in two steps, for a mesh whose parts are not all at hand at one time.
+  Json primitive(const Part& part);
+  void object_of(const std::string& name, Json primitives, const Vec3d& origin);
   /// A perspective camera at `eye` that looks towards `target`, y up; yfov in radians, the picture's size in pixels.
   void camera(const std::string& name, const Vec3d& eye, const Vec3d& target, double yfov, int width, int height);
   Document release() { return std::move(document_); }

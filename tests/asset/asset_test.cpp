@@ -9,6 +9,7 @@
 
 #include "lightwell/asset/light_asset.h"
 #include "lightwell/asset/mesh_asset.h"
+#include "lightwell/texture/stream.h"
 #include "tests/asset/sample_assets.h"
 
 namespace lightwell {
@@ -137,6 +138,25 @@ TEST_F(Assets, AnImageIsHandedOverOnceAndWhole) {
   EXPECT_TRUE(std::ranges::equal(std::get<TextureUpdate>(*update).file, pack.scene.image));
   EXPECT_FALSE(decoder->take(0));
   EXPECT_FALSE(decoder->append(std::vector<uint8_t>{1})) << "nothing comes behind the end";
+}
+
+// A page has made room for it by then.
+TEST_F(Assets, AnImageOfAnotherSizeOrFormatThanStatedIsRefused) {
+  const uint32_t stream = first_of(StreamKind::texture);
+  const TextureParameters stated = decode_texture_parameters(pack.entry(stream).parameters).value();
+  TextureParameters wider = stated, lower = stated, jpeg = stated;
+  wider.width++;
+  lower.height = 1;
+  jpeg.format = ImageFormat::jpeg;
+  for (const TextureParameters& other : {wider, lower, jpeg}) {
+    Directory directory = pack.reader.directory();
+    directory.streams[stream].parameters = encode_texture_parameters(other);
+    AssetContext context = pack.context();
+    const auto decoder = open_asset(directory, stream, context).value();
+    const auto payloads = pack.payloads(stream);
+    for (size_t i = 0; i + 1 < payloads.size(); i++) ASSERT_TRUE(decoder->append(payloads[i]));
+    EXPECT_FALSE(decoder->append(payloads.back()));
+  }
 }
 
 }  // namespace

@@ -26,9 +26,10 @@ Case light_case(const LightGrid& grid) {
   return one;
 }
 
-/// Appends the bytes of an array to a BIN chunk in the making and returns where they begin.
+/// Appends the bytes of an array to a BIN chunk in the making and returns where they begin; 0 when there are none.
 template <typename T>
 uint32_t place(ByteWriter& bin, const std::vector<T>& values) {
+  if (values.empty()) return 0;
   const auto at = static_cast<uint32_t>(bin.size());
   bin.append({reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)});
   return at;

@@ -7,6 +7,7 @@
 
 #include "lightwell/base/file.h"
 #include "lightwell/cli/memory_limit.h"
+#include "lightwell/scene/import_obj.h"
 #include "lightwell/scene/scene_builder.h"
 #include "tests/cli/commands.h"
 #include "tests/trace/scenes.h"
@@ -33,6 +34,23 @@ class Bounds : public Commands {
     const std::string name = path(std::to_string(count) + (coincident ? "_in_one_place.glb" : "_spread.glb"));
     EXPECT_TRUE(write_file(name, write_glb(scene.release(), report).value()));
     return name;
+  }
+
+  /// An OBJ of a triangle for each of the first `used` of its materials, and a lamp of another material.
+  std::string obj(int materials, int used) const {
+    std::ofstream mtl(path("parts.mtl")), faces(path("parts.obj"));
+    mtl << "newmtl lamp\nKe 5 5 5\n";
+    for (int i = 0; i < materials; i++) mtl << "newmtl m" << i << "\nKd " << (i + 1.0) / (materials + 1.0) << " 0 0\n";
+    faces << "mtllib parts.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nusemtl lamp\nf 2 3 4\n";
+    for (int i = 0; i < used; i++) faces << "usemtl m" << i << "\nf 1 2 3\n";
+    return path("parts.obj");
+  }
+
+  /// The most bytes that a small bake had at one time.
+  double memory_of_bake(const std::string& scene) const {
+    const Outcome baked = run("bake " + scene + " --grid 2 --threads 1 --quiet --json -o " + path("pack.glb"));
+    EXPECT_EQ(baked.status, 0) << baked.err;
+    return baked.status == 0 ? json::parse(baked.out)["peak_memory"].get<double>() : 0;
   }
 
   /// Processor seconds of a small bake.
@@ -73,6 +91,26 @@ TEST_F(Bounds, PartsInOnePlaceAreBakedInLinearTime) {
 TEST_F(Bounds, PartsSideBySideAreBakedInLinearTime) {
   const double few = seconds_of_bake(boxes(1000, false)), many = seconds_of_bake(boxes(4000, false));
   EXPECT_LT(many, 9 * few);
+}
+
+// A hundred thousand are to fit into a gigabyte.
+TEST_F(Bounds, APartTakesTenKilobytes) {
+  const double few = memory_of_bake(boxes(2000, false)), many = memory_of_bake(boxes(12000, false));
+  EXPECT_LT((many - few) / 10000, 10e3);
+}
+
+// The library would keep kilobytes of each. What is kept here are a few numbers, a name and the place by that name.
+TEST_F(Bounds, AMaterialThatNothingUsesTakesHundredsOfBytes) {
+  const double few = memory_of_bake(obj(1, 1)), many = memory_of_bake(obj(300000, 1));
+  EXPECT_LT((many - few) / 300000, 1000);
+}
+
+TEST_F(Bounds, AnObjOfVeryManyPartsIsRefused) {
+  const int most = static_cast<int>(most_obj_parts);
+  const Outcome refused = run("bake " + obj(most, most) + " --grid 2 --quiet -o " + path("pack.glb"));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.lines(), 1u) << refused.err;
+  EXPECT_NE(refused.err.find(std::to_string(most)), std::string::npos) << refused.err;
 }
 
 TEST_F(Bounds, WhatCannotFitIsRefusedBeforehand) {

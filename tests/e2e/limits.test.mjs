@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
 import { forAllTests, forTest } from './lifetime.mjs';
+import { replaceInJson } from './pack_edits.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { startServe } from './servers.mjs';
 import { complete, notice } from './view.mjs';
@@ -24,6 +25,10 @@ const PACK = writeSamplePack(`${folder}/pack.lw.glb`, 1_000);
 /** The sample's texture is of as many texels in width and height. */
 const SAMPLE = 256;
 const SMALL = 64;
+
+/** Each states another size of its image, in its JSON alone: a larger one, and one that only a page that asks for it makes room for. */
+const WRONG = replaceInJson(PACK, `${folder}/wrong.lw.glb`, `"width":${SAMPLE},`, `"width":${SAMPLE + 1},`);
+const HUGE = replaceInJson(PACK, `${folder}/huge.lw.glb`, `"width":${SAMPLE},"height":${SAMPLE},`, `"width":9e5,"height":100,`);
 
 const browser = await forAllTests(launch());
 const server = await forAllTests(startServe(PACK));
@@ -47,4 +52,40 @@ test('a light grid too large for the GPU is refused in words', async (t) => {
   await notice(page, 'light grid .* GPU');
   const largest = await page.evaluate(() => Math.max(0, ...globalThis.sizes));
   assert.ok(largest < SAMPLE, `a texture of ${largest} texels was made for nothing`);
+});
+
+test('an image of another size than its pack states is refused in words, and the preview stays', async (t) => {
+  const server = await forTest(t, startServe(WRONG));
+  const { page } = await forTest(t, openPage(browser));
+  await page.goto(server.url);
+  await notice(page, 'image .* another size than the pack states');
+});
+
+test('an image of more than 64 megapixels stays coarse, unless the page asks for it', async (t) => {
+  const server = await forTest(t, startServe(HUGE));
+  const { page, errors } = await forTest(t, openPage(browser, { init: limit('MAX_TEXTURE_SIZE', SMALL) }));
+  const warnings = [];
+  page.on('console', (message) => message.type() === 'warning' && warnings.push(message.text()));
+  const sizeOfMap = () =>
+    page.evaluate(() => {
+      let size;
+      document.querySelector('lightwell-view').pack.traverse(({ material }) => {
+        if (material?.map) size = [material.map.image.width, material.map.image.height];
+      });
+      return size;
+    });
+  await page.goto(server.url);
+  await complete(page);
+  const [width, height] = await sizeOfMap();
+  assert.ok(width < SMALL && width === height, `the preview is of ${width} x ${height} texels`);
+  assert.ok(warnings.some((text) => /900000 x 100 pixels .* maxImageMegapixels/.test(text)), warnings.join());
+  assert.deepEqual(errors, []);
+  // Nine hundred thousand texels become as many as the GPU takes; what comes then is another image.
+  await page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    view.setAttribute('max-image-megapixels', '100');
+    view.setAttribute('src', `${view.getAttribute('src')}?again`);
+  });
+  await notice(page, 'another size than the pack states');
+  assert.deepEqual(await sizeOfMap(), [SMALL, 1]);
 });

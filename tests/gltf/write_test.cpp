@@ -17,14 +17,14 @@ namespace {
 /// view's index, so that two documents compare equal however they are numbered.
 std::vector<std::pair<std::string, Json>> accessors_by_place(const Document& document) {
   std::vector<std::pair<std::string, Json>> found;
-  for_each_reference(document.json, [&](const Json& value, std::string_view array, const std::string& place) {
+  for_each_reference(document.json, [&](const Json& value, std::string_view array, const ReferencePlace& place) {
     if (array != "accessors") return;
     Json accessor = document.json["accessors"][value.get<size_t>()];
     const Json& view = document.json["bufferViews"][accessor["bufferView"].get<size_t>()];
     const auto& buffer = document.buffers[view["buffer"].get<size_t>()];
     const auto begin = buffer.begin() + static_cast<ptrdiff_t>(number(view, "byteOffset", 0));
     accessor["bufferView"] = std::vector<uint8_t>(begin, begin + static_cast<ptrdiff_t>(number(view, "byteLength", 0)));
-    found.emplace_back(place, std::move(accessor));
+    found.emplace_back(place.text(), std::move(accessor));
   });
   return found;
 }
@@ -75,7 +75,7 @@ TEST(DropUnused, KeepsAllThatIsReferredTo) {
     EXPECT_EQ(after.buffers.size(), after.json["buffers"].size());
 
     std::set<std::string> referred;  // what is left is referred to
-    for_each_reference(after.json, [&](const Json& value, std::string_view array, const std::string&) {
+    for_each_reference(after.json, [&](const Json& value, std::string_view array, const ReferencePlace&) {
       referred.insert(std::string(array) + value.dump());
     });
     for (const char* array : {"accessors", "bufferViews", "buffers"})
@@ -109,7 +109,7 @@ Document document_of_parts(int parts) {
 /// Every place that refers to an accessor, with the bytes of that accessor's elements.
 std::vector<std::pair<std::string, std::vector<uint8_t>>> elements_by_place(const Document& document) {
   std::vector<std::pair<std::string, std::vector<uint8_t>>> found;
-  for_each_reference(document.json, [&](const Json& value, std::string_view array, const std::string& place) {
+  for_each_reference(document.json, [&](const Json& value, std::string_view array, const ReferencePlace& place) {
     if (array != "accessors") return;
     const AccessorData data = locate(document, value.get<int>()).value();
     std::vector<uint8_t> bytes;
@@ -117,7 +117,7 @@ std::vector<std::pair<std::string, std::vector<uint8_t>>> elements_by_place(cons
       const Bytes element = data.bytes.subspan(i * data.stride, data.type.extent());
       bytes.insert(bytes.end(), element.begin(), element.end());
     }
-    found.emplace_back(place, std::move(bytes));
+    found.emplace_back(place.text(), std::move(bytes));
   });
   return found;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "lightwell/base/crc32c.h"
 #include "lightwell/pack/block_table.h"
@@ -79,6 +80,26 @@ TEST(Pack, PlanDoesNotDependOnTheJson) {
     EXPECT_EQ(reader->directory().id, writer.plan().id);
     EXPECT_EQ(reader->directory().streams, writer.plan().streams);
   }
+}
+
+// Whoever keeps packs by their ids never takes one for another that is read differently.
+TEST(Pack, TheIdCoversAllThatTheDirectorySaysOfStreams) {
+  const auto id_of = [](const std::vector<PackStream>& streams) {
+    return to_text(PackWriter::create(sample_bin(), streams)->plan().id);
+  };
+  const std::vector<PackStream> streams = random_streams(seed);
+  std::set<std::string> ids{id_of(streams)};
+  const auto expect_another = [&](const auto& change) {
+    std::vector<PackStream> changed = streams;
+    change(changed[1]);
+    EXPECT_TRUE(ids.insert(id_of(changed)).second);
+  };
+  expect_another([](PackStream& stream) { stream.kind = static_cast<StreamKind>((int(stream.kind) + 1) % 3); });
+  expect_another([](PackStream& stream) { stream.codec++; });
+  expect_another([](PackStream& stream) { stream.error++; });
+  expect_another([](PackStream& stream) { stream.parameters.push_back(0); });
+  expect_another([](PackStream& stream) { stream.blocks[0].adds++; });
+  expect_another([](PackStream& stream) { stream.blocks[0].error++; });
 }
 
 TEST(Pack, WorksWithoutBinAndWithoutStreams) {

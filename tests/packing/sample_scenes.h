@@ -63,10 +63,19 @@ inline Result<OpenedPack> try_open(const std::vector<uint8_t>& file) {
 
 inline OpenedPack open(const std::vector<uint8_t>& file) { return try_open(file).value(); }
 
-/// A pack of that JSON and those streams with all checks right, and the opening's BIN as it was. The id covers neither
-/// JSON nor parameters, so it stays.
+/// A pack of that JSON, BIN and streams with all checks right. Where the JSON names the id of `pack`, it names the new
+/// one's.
+inline std::vector<uint8_t> rewrite(const OpenedPack& pack, Json json, std::vector<uint8_t> bin,
+                                    std::vector<PackStream> streams) {
+  const PackWriter writer = PackWriter::create(std::move(bin), std::move(streams)).value();
+  const Json::json_pointer id("/extensions/LIGHTWELL_streams/id");
+  if (json.contains(id) && json[id] == to_text(pack.reader().directory().id)) json[id] = to_text(writer.plan().id);
+  return writer.finish(json.dump()).value();
+}
+
+/// The same with the opening's BIN as it was.
 inline std::vector<uint8_t> rewrite(const OpenedPack& pack, const Json& json, std::vector<PackStream> streams) {
-  return PackWriter::create({pack.bin().begin(), pack.bin().end()}, std::move(streams))->finish(json.dump()).value();
+  return rewrite(pack, json, {pack.bin().begin(), pack.bin().end()}, std::move(streams));
 }
 
 /// A bumpy sheet of n x n quads with texture coordinates and colours.

@@ -8,8 +8,7 @@
 #include "lightwell/packing/unpack.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/transport/fetch.h"
-#include "tests/packing/nasty_json.h"
-#include "tests/packing/sample_scenes.h"
+#include "tests/packing/spoilt_packs.h"
 
 namespace lightwell {
 namespace {
@@ -145,35 +144,6 @@ void expect_shown(const OpenedPack& pack, const std::vector<uint8_t>& file) {
   }
   for (const RefinedTexture& refined : pack.textures())
     EXPECT_EQ(received.images[refined.stream], read_image(*document, static_cast<int>(refined.source)).value());
-}
-
-// A small pack that has everything: a mesh and an image that are streamed, a lamp, a punctual light, a camera.
-Packed pack_of_everything() {
-  Document document = sheet_document(50);
-  add_noise(document, 32);
-  document.json["extensionsUsed"] = {"KHR_lights_punctual"};
-  document.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"spot", Json::object()}}};
-  document.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
-  document.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 2}}});
-  document.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  document.json["scenes"][0]["nodes"] = {0, 1, 2};
-  ClientLamp lamp;
-  lamp.kind = ClientLamp::Kind::rectangle;
-  lamp.luminaire = {LuminaireId::Kind::surface, 0, 0, 0, 0};
-  return pack(std::move(document), {lamp});
-}
-
-// Changes one stream of the directory: its parameters, what a row says, its error or its kind.
-void spoil(std::vector<PackStream>& streams, Random& random) {
-  PackStream& stream = streams[random.below(static_cast<uint32_t>(streams.size()))];
-  switch (random.below(4)) {
-    case 0:
-      stream.parameters[random.below(static_cast<uint32_t>(stream.parameters.size()))] ^= 1u << random.below(8);
-      break;
-    case 1: stream.parameters.resize(random.below(static_cast<uint32_t>(stream.parameters.size() + 8))); break;
-    case 2: stream.blocks[random.below(static_cast<uint32_t>(stream.blocks.size()))].adds += random.below(3); break;
-    case 3: stream.kind = static_cast<StreamKind>(random.below(3)); break;
-  }
 }
 
 TEST(VerifyPack, AcceptsOnlyWhatEverythingCanShow) {

@@ -84,6 +84,9 @@ export interface LightEvent {
 export interface TextureEvent {
   type: 'texture';
   asset: number;
+  /** In pixels, which the client has held against the file. */
+  width: number;
+  height: number;
   mimeType: string;
   file: ArrayBuffer;
 }

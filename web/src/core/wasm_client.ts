@@ -157,7 +157,7 @@ export class WasmClient {
           atlas: new Uint16Array(this.#copy(r[5]!, r[6]!)),
         };
       case 6:
-        return { type: 'texture', asset, mimeType: IMAGE_TYPES[r[1]!]!, file: this.#copy(r[4]!, r[5]!) };
+        return { type: 'texture', asset, width: r[2]!, height: r[3]!, mimeType: IMAGE_TYPES[r[1]!]!, file: this.#copy(r[4]!, r[5]!) };
       case 7:
         return { type: 'connection', state: 'complete' };
       case 8:

@@ -20,6 +20,7 @@ export interface LightwellViewAttributes {
   measure?: boolean | '';
   'raking-light'?: boolean | string;
   'any-three'?: boolean | '';
+  'max-image-megapixels'?: number | string;
 }
 
 /** The attributes that change the picture. */

@@ -33,7 +33,7 @@ const KIT = { DirectionalLight, parseQuantity, parseView };
  * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
  * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
- * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`, `any-three`.
+ * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`, `any-three`, `max-image-megapixels`.
  *
  * Events: `load` when the scene is there, `firstframe`, `frame` after each, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).
@@ -272,7 +272,9 @@ export class LightwellView extends Base implements ContextHolder {
     const current = () => loader === this.#loader;
     this.#overlay!.setProgress({ done: 0, total: 0 });
     const onConnection = (state: ConnectionEvent['state']) => current() && this.#emit('connection', { state });
-    loader.setRenderer(stage.renderer).setOptions({ strategy, lookup, onConnection, anyThree: this.hasAttribute('any-three') }).load(
+    const anyThree = this.hasAttribute('any-three');
+    const maxImageMegapixels = Number(this.getAttribute('max-image-megapixels'));
+    loader.setRenderer(stage.renderer).setOptions({ strategy, lookup, onConnection, anyThree, maxImageMegapixels }).load(
       src,
       (pack) => this.#show(pack),
       ({ loaded, total }) => current() && this.#overlay!.setProgress({ done: loaded, total }),

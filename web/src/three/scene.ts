@@ -61,7 +61,12 @@ export interface SceneOptions {
   ambientOcclusion?: boolean;
   /** How the light between the nodes of the grid is found; `trilinear` when it is left out. */
   lookup?: LightLookup;
+  /** Of how many million pixels an image may be; a larger one stays as coarse as it begins. 64 when it is left out or 0. */
+  maxImageMegapixels?: number;
 }
+
+/** As the baker has it. The memory for an image is taken before it comes, on the word of the pack. */
+const USUAL_MEGAPIXELS = 64;
 
 /** Of a matrix that only turns, relative: rounding. */
 const SAME_SCALE = 1e-6;
@@ -147,8 +152,12 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const grids = (groups?.definitions ?? definitions).map((grid, i) => new LightwellLight(grid, states[i]!, options.lookup));
     for (const { texture } of grids) checkSize(texture, renderer);
     const images = new Map<number, TextureRefinement>();
-    for (const [asset, { extension, textures }] of opening.images)
-      images.set(asset, await TextureRefinement.create(textures, extension.width, extension.height, renderer));
+    const most = options.maxImageMegapixels || USUAL_MEGAPIXELS;
+    for (const [asset, { extension, textures }] of opening.images) {
+      const { width, height } = extension;
+      if (width * height <= most * 2 ** 20) images.set(asset, await TextureRefinement.create(textures, { width, height }, renderer));
+      else console.warn(`Lightwell: an image of ${width} x ${height} pixels stays coarse; maxImageMegapixels is ${most}`);
+    }
     return new LightwellScene(opening, images, grids, groups, connection, renderer, options);
   }
 

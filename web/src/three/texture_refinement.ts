@@ -6,6 +6,11 @@ import type { Refinement } from './refinement.js';
 import { RowSweep } from './row_sweep.js';
 import type { UploadBudget } from './upload_budget.js';
 
+export interface ImageSize {
+  width: number;
+  height: number;
+}
+
 /** As GLTFLoader reads images: no conversion of any kind. */
 const BITMAP_OPTIONS: ImageBitmapOptions = { premultiplyAlpha: 'none', colorSpaceConversion: 'none' };
 
@@ -15,6 +20,7 @@ const BITMAP_OPTIONS: ImageBitmapOptions = { premultiplyAlpha: 'none', colorSpac
  */
 export class TextureRefinement implements Refinement {
   readonly #textures: Texture[];
+  readonly #stated: ImageSize;
   readonly #renderer: WebGLRenderer;
   readonly #width: number;
   readonly #height: number;
@@ -25,18 +31,20 @@ export class TextureRefinement implements Refinement {
   #consumed = 0;
   #disposed = false;
 
-  private constructor(textures: Texture[], width: number, height: number, renderer: WebGLRenderer) {
+  private constructor(textures: Texture[], stated: ImageSize, width: number, height: number, renderer: WebGLRenderer) {
     this.#textures = textures;
+    this.#stated = stated;
     this.#width = width;
     this.#height = height;
     this.#renderer = renderer;
     this.#sweep = new RowSweep(4 * width * textures.length, height);
   }
 
-  /** Enlarges the preview of the textures, which share one image, and gives it to the GPU. Sizes are those of the file. */
-  static async create(textures: Texture[], width: number, height: number, renderer: WebGLRenderer) {
+  /** Enlarges the preview of the textures, which share one image, and gives it to the GPU. `stated` is the size of the file. */
+  static async create(textures: Texture[], stated: ImageSize, renderer: WebGLRenderer) {
+    const { width, height } = stated;
     const shrink = Math.min(1, renderer.capabilities.maxTextureSize / Math.max(width, height));
-    const refinement = new TextureRefinement(textures, Math.ceil(width * shrink), Math.ceil(height * shrink), renderer);
+    const refinement = new TextureRefinement(textures, stated, Math.ceil(width * shrink), Math.ceil(height * shrink), renderer);
     const preview = await refinement.#bitmap(textures[0]!.image as ImageBitmap);
     for (const texture of textures) {
       texture.image = preview;
@@ -54,6 +62,8 @@ export class TextureRefinement implements Refinement {
   async receive(event: TextureEvent): Promise<void> {
     this.#decoding = true;
     try {
+      const { width, height } = this.#stated;
+      if (event.width !== width || event.height !== height) throw new Error('it has another size than the pack states');
       const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType }));
       if (this.#disposed) return image.close();
       this.#image = image;
