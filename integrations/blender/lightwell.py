@@ -48,11 +48,19 @@ def export_scene(path):
         "use_visible": True,
         "use_active_scene": True,
     }
+    # The exporter would write the add-on's own settings, and so the user's paths, into the file.
+    scene = bpy.context.scene
+    settings = scene["lightwell"].to_dict() if "lightwell" in scene else None
+    if settings is not None:
+        del scene["lightwell"]
     try:
         known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
         bpy.ops.export_scene.gltf(filepath=path, **{name: value for name, value in options.items() if name in known})
     except (AttributeError, KeyError, RuntimeError) as error:
         raise LightwellError(f"Blender's own add-on for glTF 2.0 cannot export the scene: {last_line(error)}") from error
+    finally:
+        if settings is not None:
+            scene["lightwell"] = settings
 
 
 def world_background(scene):
