@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # What `./run test --all` adds: format and lint, every test under sanitizers (built by Clang) with ten times the seeds, ten
-# minutes of fuzzing, the server under faults, the npm package in slow toolchains, the Debian package, and everything in
+# minutes of fuzzing, the server under faults, the npm package in slow toolchains, the add-on in Blender, the Debian package, and everything in
 # ../shared/data baked, verified and streamed. Expects build/release. FUZZ_SECONDS and SOAK_SECONDS (120; 600 for a thorough look) say
 # how long.
-#   all.sh [PART...]   one or several of: style sanitizers fuzz soak toolchains package shared; all by default
+#   all.sh [PART...]   one or several of: style sanitizers fuzz soak toolchains blender package shared; all by default
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-600}
@@ -77,6 +77,11 @@ toolchains() {
   node --test --test-concurrency=1 tests/e2e/slow/*.test.mjs >&2
 }
 
+blender() {
+  say "Using the add-on in Blender"
+  tests/blender/add_on.sh build/release/bin/lightwell
+}
+
 package() {
   say "Making the Debian package and using what is in it"
   tests/package.sh >&2
@@ -88,10 +93,10 @@ shared() {
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(style sanitizers fuzz soak toolchains package shared)
+[ $# -gt 0 ] || parts=(style sanitizers fuzz soak toolchains blender package shared)
 for part in "${parts[@]}"; do
   case $part in
-    style | sanitizers | fuzz | soak | toolchains | package | shared) "$part" ;;
+    style | sanitizers | fuzz | soak | toolchains | blender | package | shared) "$part" ;;
     *) sed -n 2,6p "$0" >&2; exit 2 ;;
   esac
 done

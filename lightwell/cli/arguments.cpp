@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "lightwell/base/file.h"
+#include "lightwell/scene/physical_sky.h"
 #include "lightwell/texture/image_file.h"
 #include "lightwell/texture/radiance_hdr.h"
 
@@ -30,7 +31,7 @@ void add_grid_option(CLI::App& command, std::optional<int>& nodes) {
       ->default_str("auto");
 }
 
-void add_environment_option(CLI::App& command, std::string& environment) {
+CLI::Option* add_environment_option(CLI::App& command, std::string& environment) {
   const auto take = [&environment](const std::string& text) -> Result<void> {
     std::error_code unknown;
     environment = text;
@@ -39,7 +40,8 @@ void add_environment_option(CLI::App& command, std::string& environment) {
     if (text.find(',') == std::string::npos) return fail(text, "no such file, and it is not " + color);
     return fail(text, "is neither " + color + " nor the name of a file");
   };
-  add_text(command, "--environment", "R,G,B|FILE", take, "Light from all around: radiance, or a Radiance .hdr file");
+  return add_text(command, "--environment", "R,G,B|FILE", take,
+                  "Light from all around: radiance, or a Radiance .hdr file");
 }
 
 void add_image_limit_option(CLI::App& command, ImageLimit& limit) {
@@ -69,7 +71,10 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
                          {"name", GroupedBy::name}},
                         "Lamps that are switched and dimmed together, with their bounced light: by lightGroup in the "
                         "extras of their nodes, by the node above them, or by their own names less a number");
-  add_environment_option(command, options.environment);
+  CLI::Option* environment = add_environment_option(command, options.environment);
+  add_optional_number(command, "--sky", options.sky, {least_turbidity, most_turbidity}, usual_turbidity,
+                      "Light from the clear sky around the scene's sun, more or less hazy: turbidity, 1 to 10")
+      ->excludes(environment);
   add_choice<char>(command, "--up", options.import.up, {{"y", 'y'}, {"z", 'z'}}, "The file's axis that points up");
   add_number(command, "--unit", options.import.unit, unit_range, "Length of the file's unit in metres")
       ->default_str("1");

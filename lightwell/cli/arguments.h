@@ -14,8 +14,9 @@ namespace lightwell {
 
 /// The options of the commands that trace light through a scene.
 struct SceneOptions {
-  std::string path;         ///< a scene file, a pack, or the name of a built-in scene
-  std::string environment;  ///< "R,G,B", or the name of a Radiance .hdr file; empty: the scene's own
+  std::string path;          ///< a scene file, a pack, or the name of a built-in scene
+  std::string environment;   ///< "R,G,B", or the name of a Radiance .hdr file; empty: the scene's own
+  std::optional<float> sky;  ///< its turbidity: light by the physical sky of the scene's sun
   ImportOptions import;
   std::optional<int> nodes;  ///< of a regular grid; without, the grid is adaptive if the method can fill it
   uint64_t photons = 8'000'000;
@@ -33,7 +34,7 @@ struct SceneOptions {
   }
 };
 
-/// Adds the scene and --grid, --photons, --method, --groups, --environment, --up, --unit, --lamp-units,
+/// Adds the scene and --grid, --photons, --method, --groups, --environment, --sky, --up, --unit, --lamp-units,
 /// --max-image-megapixels, --seed, --threads and --memory-limit. `help` says what the scene may be.
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help);
 

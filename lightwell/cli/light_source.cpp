@@ -27,7 +27,8 @@ LuminaireSet contained_in_grids(const OpenedScene& scene, const World& world, bo
 Result<void> check_environment(const OpenedScene& scene) {
   if (!scene.pack || contents_of(scene.pack->grids()).environment || EnvironmentLight(scene.scene.environment).black())
     return {};
-  return fail("", "its light was baked without an environment: bake the scene with one, or leave --environment out");
+  return fail(
+      "", "its light was baked without an environment: bake the scene with one, or leave --environment and --sky out");
 }
 
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,

@@ -5,6 +5,7 @@
 
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/memory_limit.h"
+#include "lightwell/cli/option_kinds.h"
 
 namespace {
 
@@ -71,7 +72,7 @@ int main(int argc, char** argv) {
   add_help(program, console, chosen)->group("Commands");
 
   try {
-    program.parse(argc, argv);
+    program.parse(with_values_joined(argc, argv));
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? program.exit(error) : refuse(program, complaint(program, error));
   }

@@ -10,6 +10,8 @@
 #include "lightwell/render/overview.h"
 #include "lightwell/scene/builtin.h"
 #include "lightwell/scene/import_gltf.h"
+#include "lightwell/scene/noted_sky.h"
+#include "lightwell/scene/physical_sky.h"
 #include "lightwell/scene/sun_of_sky.h"
 
 namespace lightwell {
@@ -28,18 +30,17 @@ Result<OpenedScene> open_other(const std::string& path, const ImportOptions& opt
   return OpenedScene{std::move(scene), std::nullopt};
 }
 
-// The object under this key, which replaces anything else that a file may have there.
-Json& object_in(Json& json, const char* key) {
-  Json& value = json[key];
-  if (!value.is_object()) value = Json::object();
-  return value;
-}
-
-// Notes a constant sky in the document, so that a pack keeps it.
-void note_sky(Scene& scene, const Vec3f& radiance) {
-  Json& json = scene.document.json;
-  const auto index = static_cast<size_t>(std::max(0, index_of(json, "scene")));
-  object_in(object_in(json["scenes"][index], "extras"), "lightwell")["skyRadiance"] = radiance.e;
+// Replaces the scene's own surroundings by those that are asked for.
+Result<void> surround(Scene& scene, const SceneOptions& options) {
+  if (options.sky) return light_by_sky(scene, *options.sky);
+  if (options.environment.empty()) return {};
+  LW_TRY(surroundings, read_environment(options.environment, options.import.images));
+  NotedSky noted;
+  if (!surroundings.map) noted.radiance = surroundings.radiance;
+  note_sky(scene.document.json, noted);
+  if (const auto sun = take_sun(surroundings)) add_sun(scene, *sun);
+  scene.environment = std::move(surroundings);
+  return {};
 }
 
 // Refuses --up, --unit, --lamp-units and --scene for packs and built-in scenes, which have their own.
@@ -62,12 +63,7 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   auto opened = pack ? open_pack(path, level, options.import.images, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
   LW_CHECK(check_memory(opened->scene, options.memory_limit > 0 ? options.memory_limit : machine_memory()));
-  if (!options.environment.empty()) {
-    LW_TRY(surroundings, read_environment(options.environment, options.import.images));
-    if (!surroundings.map) note_sky(opened->scene, surroundings.radiance);
-    if (const auto sun = take_sun(surroundings)) add_sun(opened->scene, *sun);
-    opened->scene.environment = std::move(surroundings);
-  }
+  LW_CHECK(surround(opened->scene, options));
   LW_CHECK(take_sky_dome(opened->scene, report));
   if (pack && contents_of(opened->pack->grids()).environment && EnvironmentLight(opened->scene.environment).black())
     report.warn("environment: the pack has its light but not its picture: give it with --environment");

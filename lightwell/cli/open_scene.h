@@ -16,7 +16,7 @@ struct OpenedScene {
   std::optional<OpenedPack> pack;
 };
 
-/// Opens the scene that the options name, a pack at a level; --environment replaces the scene's own.
+/// Opens the scene that the options name, a pack at a level; --environment and --sky replace the scene's own.
 Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level = {});
 
 /// Makes the scene ready, if it is no pack as world_facing_light() does.

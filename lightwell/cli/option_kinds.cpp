@@ -48,6 +48,24 @@ Result<double> parse_number(const std::string& text, NumberRange range) {
   return number;
 }
 
+CLI::Option* add_optional_number(CLI::App& command, const std::string& name, std::optional<float>& value,
+                                 NumberRange range, float usual, const std::string& help) {
+  return add_number(command, name, value, range, help)->expected(0, 0)->default_str(short_text(usual));
+}
+
+std::vector<std::string> with_values_joined(int count, char** arguments) {
+  std::vector<std::string> joined;
+  for (int i = 1; i < count; i++) {
+    constexpr double any = std::numeric_limits<double>::max();
+    if (!joined.empty() && joined.back() == "--sky" && parse_number(arguments[i], {-any, any}))
+      joined.back() += std::string("=") + arguments[i];
+    else
+      joined.emplace_back(arguments[i]);
+  }
+  std::ranges::reverse(joined);
+  return joined;
+}
+
 Result<int64_t> parse_whole(const std::string& text, NumberRange range) {
   int64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -48,6 +48,16 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, T& value, Nu
   return add_text(command, name, "NUMBER", take, help);
 }
 
+/// Adds an option that may be followed by a number of the range; without, it is `usual`. The option must be known to
+/// with_values_joined().
+CLI::Option* add_optional_number(CLI::App& command, const std::string& name, std::optional<float>& value,
+                                 NumberRange range, float usual, const std::string& help);
+
+/// The arguments of a command line, in the order in which CLI11 takes them, the last one first. A number behind an
+/// option of add_optional_number() becomes part of it, "--sky=4", since CLI11 would take any word for its value, the
+/// scene too.
+std::vector<std::string> with_values_joined(int count, char** arguments);
+
 /// Adds an option whose value is a whole number of the range.
 template <typename T>
 CLI::Option* add_whole(CLI::App& command, const std::string& name, T& value, NumberRange range,

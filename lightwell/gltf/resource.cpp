@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 #include "lightwell/base/file.h"
 #include "lightwell/base/hex.h"
@@ -42,18 +41,6 @@ Result<std::vector<uint8_t>> decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// Decodes percent-encoding. A % that does not begin a code is kept.
-std::string decode_percent(std::string_view text) {
-  std::string plain;
-  for (size_t i = 0; i < text.size(); i++) {
-    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
-    plain += low >= 0 ? static_cast<char>(high * 16 + low) : text[i];
-    if (low >= 0) i += 2;
-  }
-  return plain;
-}
-
 Result<std::vector<uint8_t>> read_data_uri(std::string_view uri) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) return fail("", "its data URI has no data");
@@ -85,6 +72,17 @@ Result<fs::path> path_below(const std::string& uri, const fs::path& folder) {
 }
 
 }  // namespace
+
+std::string decode_percent(std::string_view text) {
+  std::string plain;
+  for (size_t i = 0; i < text.size(); i++) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+    plain += low >= 0 ? static_cast<char>(high * 16 + low) : text[i];
+    if (low >= 0) i += 2;
+  }
+  return plain;
+}
 
 Result<std::vector<uint8_t>> read_uri(const std::string& uri, const fs::path& folder) {
   if (uri.starts_with("data:")) return read_data_uri(uri);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightwell/base/result.h"
@@ -13,5 +14,8 @@ namespace lightwell {
 /// `folder`. Fails for other schemes, absolute paths, ".." and links that lead out of the folder. The caller adds the
 /// element to the error.
 Result<std::vector<uint8_t>> read_uri(const std::string& uri, const std::filesystem::path& folder);
+
+/// Undoes percent-encoding. A % that does not begin a code is kept.
+std::string decode_percent(std::string_view text);
 
 }  // namespace lightwell

@@ -10,6 +10,8 @@
 #include "lightwell/gltf/pose.h"
 #include "lightwell/scene/import_gltf_light.h"
 #include "lightwell/scene/import_gltf_material.h"
+#include "lightwell/scene/noted_sky.h"
+#include "lightwell/scene/physical_sky.h"
 #include "lightwell/scene/place.h"
 
 namespace lightwell {
@@ -125,6 +127,7 @@ class Importer {
     LW_CHECK(place_meshes());
     count_from(origin ? *origin : found_origin());
     read_lamps_and_cameras();
+    read_sky();
     flat_.warn(report_, "its transform flattens what it holds; left out of the bake");
     hidden_.warn(report_, "is not visible (KHR_node_visibility); left out of the bake");
     lost_joints_.warn(report_, "is a joint that the scene does not show; taken to be at the origin");
@@ -144,7 +147,6 @@ class Importer {
     const Json& scenes = member(json, "scenes");
     const Json& shown = element(scenes, static_cast<size_t>(std::max(0, index_of(json, "scene"))));
     if (shown.is_null()) report_.warn("the document has no scene: nothing is shown");
-    scene_.environment = read_environment(shown);
     std::vector<Visit> open;  // a stack of our own: node trees may be deeper than the program's
     const auto push = [&](const Json& nodes, const Transform& parent, bool hidden) {
       for (size_t i = nodes.size(); i-- > 0;)
@@ -350,6 +352,13 @@ class Importer {
       if (auto lamp = read_lamp(json, node, to_scene, report_)) scene_.lamps.push_back(std::move(*lamp));
       if (auto camera = read_camera(json, node, to_scene, report_)) scene_.cameras.push_back(std::move(*camera));
     }
+  }
+
+  void read_sky() {
+    const NotedSky sky = noted_sky(scene_.document.json);
+    const Lamp* sun = strongest_sun(scene_);
+    if (sky.radiance) scene_.environment.radiance = *sky.radiance;
+    if (sky.turbidity && sun != nullptr) scene_.environment = physical_sky(*sun, *sky.turbidity);
   }
 
   Scene scene_;

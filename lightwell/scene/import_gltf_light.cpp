@@ -88,10 +88,4 @@ std::optional<Camera> read_camera(const Json& document, int node_index, const Tr
   return camera;
 }
 
-Environment read_environment(const Json& scene) {
-  Environment environment;
-  environment.radiance = clamped(numbers<3>(member(member(scene, "extras"), "lightwell"), "skyRadiance", Vec3d{}));
-  return environment;
-}
-
 }  // namespace lightwell

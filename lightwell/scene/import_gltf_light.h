@@ -15,7 +15,4 @@ std::optional<Lamp> read_lamp(const Json& document, int node, const Transform& t
 /// The node's scale is removed, as glTF asks.
 std::optional<Camera> read_camera(const Json& document, int node, const Transform& to_scene, Report& report);
 
-/// The constant radiance from all directions that scene.extras.lightwell.skyRadiance asks for.
-Environment read_environment(const Json& scene);
-
 }  // namespace lightwell

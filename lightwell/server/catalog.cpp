@@ -85,8 +85,9 @@ bool is_compressible(std::string_view type) {
 
 }  // namespace
 
-Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path& page) {
+Result<Catalog> Catalog::open(const std::vector<fs::path>& packs, const fs::path& page, bool packs_change) {
   Catalog catalog;
+  catalog.packs_change_ = packs_change;
   for (const fs::path& path : packs) {
     std::error_code missing;
     if (fs::is_directory(path, missing)) {
@@ -150,7 +151,7 @@ Result<std::shared_ptr<const std::string>> Catalog::packs_json() {
     json += "{\"name\":" + json_string(pack.name) + ",\"url\":\"" + std::string(pack_prefix) +
             encode_percent(pack.name) + "\",\"bytes\":" + std::to_string(pack.bytes) + "}";
   }
-  list_.json = std::make_shared<const std::string>(json + "]}\n");
+  list_.json = std::make_shared<const std::string>(json + (packs_change_ ? "],\"change\":true}\n" : "]}\n"));
   // A folder that changes twice within the grain of its file system's clock shows one time.
   const auto settled = fs::file_time_type::clock::now() - clock_grain;
   const bool telling = std::ranges::all_of(times, [&](auto time) { return time < settled; });

@@ -19,15 +19,17 @@ namespace lightwell {
 class Catalog {
  public:
   /// `packs`: packs, or folders of packs (see PackFolder); a pack's name is its file name. `page`: the folder of the
-  /// page, or empty. Fails when one does not exist, a file is no pack, or two files have the same name.
-  static Result<Catalog> open(const std::vector<std::filesystem::path>& packs, const std::filesystem::path& page);
+  /// page, or empty. `packs_change`: the list says that the page is to look out for packs that are replaced. Fails when
+  /// one does not exist, a file is no pack, or two files have the same name.
+  static Result<Catalog> open(const std::vector<std::filesystem::path>& packs, const std::filesystem::path& page,
+                              bool packs_change = false);
 
   /// All packs, in the order of their names; of two with one name the first that was given. Fails as PackFolder does.
   Result<std::vector<ServedPack>> packs();
   /// Those of the folders that hold no pack so far.
   std::vector<std::filesystem::path> empty_folders();
-  /// The list as JSON: {"packs": [{"name": ..., "url": "/packs/...", "bytes": ...}, ...]}. Given again for up to a
-  /// second while no name has come or gone in the folders.
+  /// The list as JSON: {"packs": [{"name": ..., "url": "/packs/...", "bytes": ...}, ...], "change": true}, the last
+  /// only where packs change. Given again for up to a second while no name has come or gone in the folders.
   Result<std::shared_ptr<const std::string>> packs_json();
 
   struct File {
@@ -55,6 +57,7 @@ class Catalog {
   std::vector<std::filesystem::path> files_;
   std::vector<PackFolder> folders_;
   std::filesystem::path page_;
+  bool packs_change_ = false;
   List list_;
   GzippedFiles gzipped_;
 };

@@ -170,7 +170,7 @@ class Server::Loop {
 };
 
 Result<Server> Server::listen(const ServerOptions& options) {
-  LW_TRY(catalog, Catalog::open(options.packs, options.page));
+  LW_TRY(catalog, Catalog::open(options.packs, options.page, options.packs_change));
   auto loop = std::make_unique<Loop>(options, std::move(catalog));
   LW_CHECK(loop->listen());
   return Server(std::move(loop));

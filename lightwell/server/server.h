@@ -19,6 +19,7 @@ struct ServerOptions {
   uint16_t port = 8080;                      ///< 0: any free one
   std::vector<std::filesystem::path> packs;  ///< files, or folders of *.glb
   std::filesystem::path page;                ///< the folder with the page's index.html; empty: no page
+  bool packs_change = false;                 ///< the page is to look out for packs that are replaced
   /// Beyond these, in all and of one address, an idle connection is closed for a new one, else the one that takes its
   /// answer slowest. Where all are fast, new ones wait. 0 of one address is any number.
   size_t max_connections = 8192, connections_per_address = 1024;

@@ -7,9 +7,9 @@ import { createInterface } from 'node:readline';
 import { WEB } from './dependencies.mjs';
 import { BIN } from './packs.mjs';
 
-/** Starts `lightwell serve` for a pack or a folder; `port` 0 takes any. Resolves when it has said where it listens. */
+/** Starts `lightwell serve` for a pack, a folder, or a list of arguments; `port` 0 takes any. Resolves when it has said where it listens. */
 export async function startServe(path, port = 0) {
-  const child = spawn(`${BIN}/lightwell`, ['serve', path, '--port', String(port), '--page', `${WEB}dist`], {
+  const child = spawn(`${BIN}/lightwell`, ['serve', ...[path].flat(), '--port', String(port), '--page', `${WEB}dist`], {
     stdio: ['ignore', 'pipe', 'inherit'],
   });
   const ended = new Promise((resolve) => child.on('exit', resolve));

@@ -323,6 +323,7 @@ export class LightwellView extends Base implements ContextHolder {
       return this.#overlay!.say(message);
     }
     const loader = this.#loader;
+    if (this.#pack !== null) this.#keptView = this.view;
     setTimeout(() => loader === this.#loader && this.#load(), this.#replacedPause);
     this.#replacedPause = Math.min(2 * this.#replacedPause, LONGEST_REPLACED_PAUSE);
   }

@@ -15,7 +15,7 @@ interface Pack {
  */
 export async function bindPacks(view: LightwellView, hash: Hash): Promise<void> {
   const { wanted } = hash;
-  const packs = await listPacks();
+  const { packs, change } = await listPacks();
   const title = document.querySelector<HTMLElement>('#title')!;
   const select = document.querySelector<HTMLSelectElement>('#packs')!;
   const show = (camera: View | null) => {
@@ -34,13 +34,13 @@ export async function bindPacks(view: LightwellView, hash: Hash): Promise<void> 
   if (packs.length > 1) view.addEventListener('load', tile, { once: true });
   if (select.selectedIndex < 0) throw new Error(`This server has no pack${wanted === null ? 's' : ` “${wanted}”`}.`);
   show(hash.view);
+  if (change) (await import('./follow.js')).follow(view);
 }
 
-async function listPacks(): Promise<Pack[]> {
+async function listPacks(): Promise<{ packs: Pack[]; change?: boolean }> {
   const response = await fetch('packs.json');
   if (!response.ok) throw new Error(`packs.json: the server answers ${response.status}`);
-  const { packs } = (await response.json()) as { packs: Pack[] };
-  return packs;
+  return response.json();
 }
 
 /** "dragon-room.lw.glb" as "dragon-room". */
