@@ -90,8 +90,7 @@ std::string journal_name(const Options& options) { return options.output + ".jou
 Result<void> check_options(const Options& options) {
   const bool limited = options.budget > 0 || options.stop_after || options.preview;
   if (limited && options.scene.nodes)
-    return fail("--grid",
-                "N says how many nodes there are: --budget, --stop-after and --preview go with auto");
+    return fail("--grid", "N says how many nodes there are: --budget, --stop-after and --preview go with auto");
   if (options.resume && options.output == "-") return fail("--resume", "needs an output that is a file");
   return {};
 }

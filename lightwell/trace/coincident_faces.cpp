@@ -10,6 +10,10 @@
 namespace lightwell {
 namespace {
 
+/// The count of layers of which one is opaque: nothing is seen behind it.
+constexpr uint8_t is_opaque = 255;
+static_assert(is_opaque > CoincidentFaces::most_layers);
+
 /// Whether the corners, sorted, are in an odd order: the face's other way round has the same ones in an even order.
 bool sort_corners(std::array<Vec3f, 3>& corners) {
   bool odd = false;
@@ -35,16 +39,17 @@ CoincidentFaces::Found CoincidentFaces::add(FaceNumber number, const std::array<
                                             const FaceLayer& layer) {
   std::array<Vec3f, 3> sorted = corners;
   const bool way = sort_corners(sorted) != layer.mirrored;
-  std::array<Layers, 2>& place = places_[fingerprint_of(sorted, layer.shines)];
-  Layers& same = place[way];
-  const Layers& turned = place[!way];
-  if (same.count >= most_layers) return {.hidden = true, .turned = {}};
+  Layers& place = places_[fingerprint_of(sorted, layer.shines)];
+  uint8_t& same = place.count[way];
+  if (same >= most_layers) return {.hidden = true, .turned = {}};
   if (!layer.opaque) {
-    same.count++;
+    same++;
     return {};
   }
-  same = {most_layers, number};
-  return {.hidden = false, .turned = turned.count >= most_layers ? std::optional(turned.opaque) : std::nullopt};
+  same = is_opaque;
+  if (place.count[!way] == is_opaque) return {.hidden = false, .turned = place.opaque};
+  place.opaque = number;
+  return {};
 }
 
 }  // namespace lightwell

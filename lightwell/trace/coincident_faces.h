@@ -45,11 +45,10 @@ class CoincidentFaces {
     size_t operator()(uint64_t key) const { return key; }
   };
   struct Layers {
-    uint8_t count;
-    FaceNumber opaque;  // once there are `most_layers`
+    FaceNumber opaque;             // the first one, either way round
+    std::array<uint8_t, 2> count;  // each way round; most_layers once one is opaque
   };
-  /// By fingerprint, each way round: of 10 million faces two share one by 3e-6.
-  tsl::robin_map<uint64_t, std::array<Layers, 2>, Mixed> places_;
+  tsl::robin_map<uint64_t, Layers, Mixed> places_;  // by fingerprint: of 10 million faces two share one by 3e-6
 };
 
 }  // namespace lightwell

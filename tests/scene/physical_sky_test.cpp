@@ -149,7 +149,9 @@ TEST(PhysicalSky, FadesAsTheSunSets) {
     const RadianceImage& map = *physical_sky(sun_at(degrees), 2).map;
     for (const float value : map.pixels) ASSERT_TRUE(std::isfinite(value) && value >= 0) << degrees;
     const double light = dot(luminance, above(map));
-    if (degrees > -12) EXPECT_GT(light, 0);
+    if (degrees > -12) {
+      EXPECT_GT(light, 0);
+    }
     EXPECT_LT(light, before + 1e-12) << degrees;
     before = light;
   }

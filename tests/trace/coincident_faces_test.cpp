@@ -58,6 +58,13 @@ TEST(CoincidentFaces, TellsOfOneThatIsTurnedRound) {
   EXPECT_TRUE(faces.add({8, 9}, elsewhere, {.mirrored = true}).turned);
 }
 
+TEST(CoincidentFaces, PanesAreNoSheet) {
+  CoincidentFaces faces;
+  for (int i = 0; i < CoincidentFaces::most_layers; i++) faces.add({0, 1}, face, {.opaque = false});
+  EXPECT_FALSE(faces.add({2, 3}, turned_round, {}).turned);
+  EXPECT_FALSE(faces.add({4, 5}, turned_round, {.opaque = false}).turned);
+}
+
 // A sheet made of two faces, its back in another colour: each ray meets the side that it comes from, and where on it.
 TEST(CoincidentFaces, ASheetOfTwoFacesShowsEachSide) {
   const auto sheet = [](bool turned) {
