@@ -74,7 +74,7 @@ constexpr const char* up_high = "x,y,z,nx,ny,nz\n0,3,0,0,1,0\n";
 // What the path tracer finds facing the whole sky is the integral of the picture, and the sun's share.
 TEST_F(Sky, LightsTheGroundByItsIntegral) {
   const std::vector<double> found = probed(scene() + " --sky 4 --spp 4000 --quantity direct", up_high);
-  const RadianceImage& map = *physical_sky(sun_of_courtyard(), 4).map;
+  const RadianceImage map = *physical_sky(sun_of_courtyard(), 4).map;
   for (int c = 0; c < 3; c++) {
     double expected = 2 * std::sqrt(0.5);
     for (size_t i = 0; i < map.pixels.size() / 6; i++)

@@ -59,7 +59,7 @@ Vec3d through(const Vec3d& thickness, double way) {
 // is Hillaire's of the light that is scattered again; ozone takes 3 % of the green.
 TEST(PhysicalSky, OfPureAirIsThatOfALayerThatScatters) {
   for (const double degrees : {90.0, 60.0}) {
-    const RadianceImage& map = *physical_sky(sun_at(degrees), 1).map;
+    const RadianceImage map = *physical_sky(sun_at(degrees), 1).map;
     const double height = std::sin(degrees * pi / 180);
     const Vec3d outside = through(ozone, 1 / height) * (height / dot(luminance, through(rayleigh + ozone, 1 / height)));
     const Vec3d direct = through(rayleigh, 1 / height), sky = above(map);
@@ -74,7 +74,7 @@ TEST(PhysicalSky, OfPureAirIsThatOfALayerThatScatters) {
 
 TEST(PhysicalSky, ThePictureBelowIsTheGroundInThisLight) {
   for (const double degrees : {90.0, 30.0}) {
-    const RadianceImage& map = *physical_sky(sun_at(degrees), 1).map;
+    const RadianceImage map = *physical_sky(sun_at(degrees), 1).map;
     const double height = std::sin(degrees * pi / 180);
     const Vec3d left = through(rayleigh + ozone, 1 / height);
     const Vec3d expected = (above(map) + left * height / dot(luminance, left)) * (0.1 / pi);
@@ -100,7 +100,7 @@ TEST(PhysicalSky, TheSkysShareGrowsWithHaze) {
 }
 
 TEST(PhysicalSky, IsTheSameOnBothSidesOfTheSun) {
-  const RadianceImage& map = *physical_sky(sun_at(35), 3).map;
+  const RadianceImage map = *physical_sky(sun_at(35), 3).map;
   for (const int row : {3, 100, 180, 250})
     for (const int column : {0, 40, 300, 511})
       for (int c = 0; c < 3; c++) {
@@ -110,15 +110,15 @@ TEST(PhysicalSky, IsTheSameOnBothSidesOfTheSun) {
 }
 
 TEST(PhysicalSky, TurnsWithTheSun) {
-  const RadianceImage& map = *physical_sky(sun_at(35), 3).map;
-  const RadianceImage& turned = *physical_sky(sun_at(35, pi / 2), 3).map;
+  const RadianceImage map = *physical_sky(sun_at(35), 3).map;
+  const RadianceImage turned = *physical_sky(sun_at(35, pi / 2), 3).map;
   for (const int row : {3, 100, 180, 250})
     for (const int column : {0, 40, 300, 767})
       EXPECT_NEAR(at(map, row, column)[1], at(turned, row, column + 256)[1], 1e-4 * at(map, row, column)[1]);
 }
 
 TEST(PhysicalSky, IsBrighterAroundTheSunAndBlueAwayFromIt) {
-  const RadianceImage& map = *physical_sky(sun_at(40), 3).map;
+  const RadianceImage map = *physical_sky(sun_at(40), 3).map;
   const int row = row_at(map, 40), middle = map.width / 2;
   for (int away = 1; away < 256; away *= 2)
     EXPECT_GT(at(map, row, middle + away / 2)[1], at(map, row, middle + away)[1]) << away;
@@ -129,7 +129,7 @@ TEST(PhysicalSky, IsBrighterAroundTheSunAndBlueAwayFromIt) {
 }
 
 TEST(PhysicalSky, OfPureAirIsDeepBlueAndWhiteAtItsFoot) {
-  const RadianceImage& map = *physical_sky(sun_at(60), 1).map;
+  const RadianceImage map = *physical_sky(sun_at(60), 1).map;
   const Vec3d zenith = at(map, 0, 0), foot = at(map, row_at(map, 2), 0);
   EXPECT_GT(zenith[2], 4 * zenith[0]);
   EXPECT_LT(foot[2], 2 * foot[0]);
@@ -137,7 +137,7 @@ TEST(PhysicalSky, OfPureAirIsDeepBlueAndWhiteAtItsFoot) {
 }
 
 TEST(PhysicalSky, OfASunInTheZenithIsRound) {
-  const RadianceImage& map = *physical_sky(sun_at(90), 3).map;
+  const RadianceImage map = *physical_sky(sun_at(90), 3).map;
   for (const int row : {0, 10, 128, 255})
     EXPECT_NEAR(at(map, row, 0)[1], at(map, row, 333)[1], 1e-3 * at(map, row, 0)[1]);
 }
@@ -146,7 +146,7 @@ TEST(PhysicalSky, OfASunInTheZenithIsRound) {
 TEST(PhysicalSky, FadesAsTheSunSets) {
   double before = std::numeric_limits<double>::infinity();
   for (const double degrees : {5.0, 2.0, 0.0, -2.0, -6.0, -12.0, -90.0}) {
-    const RadianceImage& map = *physical_sky(sun_at(degrees), 2).map;
+    const RadianceImage map = *physical_sky(sun_at(degrees), 2).map;
     for (const float value : map.pixels) ASSERT_TRUE(std::isfinite(value) && value >= 0) << degrees;
     const double light = dot(luminance, above(map));
     if (degrees > -12) {
@@ -156,7 +156,7 @@ TEST(PhysicalSky, FadesAsTheSunSets) {
     before = light;
   }
   EXPECT_EQ(before, 0);
-  const RadianceImage& map = *physical_sky(sun_at(0), 2).map;
+  const RadianceImage map = *physical_sky(sun_at(0), 2).map;
   const Vec3d foot = at(map, row_at(map, 1), map.width / 2), zenith = at(map, 0, 0);
   EXPECT_GT(foot[0] / foot[2], 2 * zenith[0] / zenith[2]);
 }
