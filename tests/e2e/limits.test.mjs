@@ -81,11 +81,13 @@ test('an image of more than 64 megapixels stays coarse, unless the page asks for
   assert.ok(warnings.some((text) => /900000 x 100 pixels .* maxImageMegapixels/.test(text)), warnings.join());
   assert.deepEqual(errors, []);
   // Nine hundred thousand texels become as many as the GPU takes; what comes then is another image.
-  await page.evaluate(() => {
+  const message = await page.evaluate(() => {
     const view = document.querySelector('lightwell-view');
+    const failure = new Promise((resolve) => view.addEventListener('error', ({ detail }) => resolve(detail.message), { once: true }));
     view.setAttribute('max-image-megapixels', '100');
     view.setAttribute('src', `${view.getAttribute('src')}?again`);
+    return failure;
   });
-  await notice(page, 'another size than the pack states');
+  assert.match(message, /another size than the pack states/);
   assert.deepEqual(await sizeOfMap(), [SMALL, 1]);
 });
