@@ -67,10 +67,17 @@ TEST(Random, GivesEachIndexItsOwnUniformNumbers) {
 TEST(Parallel, WhatABodyThrowsReachesTheCaller) {
   for (const int threads : {1, 4}) {
     std::atomic<int> calls = 0;
+    std::atomic<bool> throws = false;
     const auto run = [&] {
       parallel_for(100000, 1, threads, [&](size_t i, size_t, int) {
         calls++;
-        if (i == 10) throw std::bad_alloc();
+        if (i == 10) {
+          throws = true;
+          throw std::bad_alloc();
+        }
+        // All items would take seconds: even a busy machine gets round to the one that throws before.
+        while (i > 10 && !throws) std::this_thread::yield();
+        if (i > 10) std::this_thread::sleep_for(std::chrono::microseconds(100));
       });
     };
     EXPECT_THROW(run(), std::bad_alloc);
