@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include "lightwell/base/bytes.h"
 #include "lightwell/base/crc32c.h"
