@@ -117,8 +117,8 @@ std::optional<Room> load_room(const std::string& path) {
   return room;
 }
 
-/// What a regular grid for a target of 3 % errs by at its nodes themselves: at 400 valid ones, each for a direction of
-/// its own, against the path tracer.
+/// What a regular grid for a target of 3 % errs by at its nodes themselves: at 400 valid ones that do not lie on the
+/// grid's own faces, each in a direction of an axis, against the path tracer.
 bool at_nodes(const std::string& path) {
   constexpr size_t tested = 400;
   const std::optional<Room> room = load_room(path);

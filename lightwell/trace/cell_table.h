@@ -14,6 +14,14 @@ namespace lightwell {
 /// ray, and waited for it a quarter of its time.
 class CellTable {
  public:
+  /// Keys of cells differ in few bits.
+  struct Mixed {
+    size_t operator()(uint64_t cell) const {
+      cell *= 0x9e3779b97f4a7c15;
+      return cell ^ cell >> 32;
+    }
+  };
+
   /// For at most so many cells.
   explicit CellTable(size_t cells = 0) : entries_(std::bit_ceil(2 * cells + 1)) {}
 
@@ -39,11 +47,7 @@ class CellTable {
     Vec3f colour{};
   };
 
-  /// Keys of cells differ in few bits.
-  size_t first(uint64_t cell) const {
-    const uint64_t mixed = cell * 0x9e3779b97f4a7c15;
-    return (mixed ^ mixed >> 32) & (entries_.size() - 1);
-  }
+  size_t first(uint64_t cell) const { return Mixed()(cell) & (entries_.size() - 1); }
   size_t next(size_t i) const { return (i + 1) & (entries_.size() - 1); }
 
   std::vector<Entry> entries_;

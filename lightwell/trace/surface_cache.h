@@ -56,15 +56,8 @@ class SurfaceCache {
   Vec3f of_cell(uint64_t cell) const;
 
   SurfaceCells cells_;
-  /// Keys of cells differ in few bits.
-  struct Mixed {
-    size_t operator()(uint64_t cell) const {
-      cell *= 0x9e3779b97f4a7c15;
-      return cell ^ cell >> 32;
-    }
-  };
   template <typename Value>
-  using ByCell = tsl::robin_map<uint64_t, Value, Mixed>;
+  using ByCell = tsl::robin_map<uint64_t, Value, CellTable::Mixed>;
   ByCell<uint32_t> numbers_;  // into irradiance_; while it is built
   std::vector<Vec3f> irradiance_;
   CellTable light_;        // the same in one step
