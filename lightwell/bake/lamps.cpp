@@ -7,6 +7,8 @@
 #include <numeric>
 #include <optional>
 
+#include "lightwell/bake/shining_parts.h"
+
 namespace lightwell {
 namespace {
 
@@ -124,7 +126,24 @@ std::optional<ClientLamp> as_sphere(const Shape& shape) {
   return lamp;
 }
 
-std::optional<ClientLamp> describe_surface(const TraceScene& scene, const Luminaire& luminaire) {
+// The parts of a textured rectangle that shine, each with its share of the power: at most `most`.
+std::vector<ClientLamp> cut_to_what_shines(const TraceScene& scene, const Luminaire& luminaire, const ClientLamp& whole,
+                                           size_t most) {
+  std::vector<ClientLamp> lamps;
+  const float both_sides = whole.two_sided ? 2.0f : 1.0f;
+  for (const ShiningPart& part :
+       shining_parts(scene, luminaire, normalized(whole.half_u), normalized(whole.half_v), most)) {
+    ClientLamp& lamp = lamps.emplace_back(whole);
+    lamp.center = part.center;
+    lamp.half_u = normalized(whole.half_u) * part.half_size[0];
+    lamp.half_v = normalized(whole.half_v) * part.half_size[1];
+    lamp.radiance = part.radiance;
+    lamp.power = mean_of_channels(part.radiance) * 4 * part.half_size[0] * part.half_size[1] * pi * both_sides;
+  }
+  return lamps;
+}
+
+std::vector<ClientLamp> describe_surface(const TraceScene& scene, const Luminaire& luminaire, size_t most) {
   const Shape shape = measure(scene, luminaire);
   std::optional<ClientLamp> lamp = as_rectangle(shape);
   if (!lamp) lamp = as_sphere(shape);
@@ -136,8 +155,11 @@ std::optional<ClientLamp> describe_surface(const TraceScene& scene, const Lumina
   lamp->two_sided = luminaire.double_sided && lamp->kind == ClientLamp::Kind::rectangle;
   // A double-sided surface emits half of its power on each side; the inside of a sphere is never seen.
   lamp->radiance = luminaire.power / (pi * luminaire.area * (luminaire.double_sided ? 2.0f : 1.0f));
+  lamp->power = mean_of_channels(luminaire.power);
   lamp->luminaire = luminaire.id;
-  return lamp;
+  if (lamp->kind == ClientLamp::Kind::sphere || scene.is_uniform(static_cast<uint32_t>(luminaire.index)))
+    return {*lamp};
+  return cut_to_what_shines(scene, luminaire, *lamp, most);
 }
 
 ClientLamp describe_lamp(const Lamp& source, const LuminaireId& id) {
@@ -158,11 +180,15 @@ ClientLamp describe_lamp(const Lamp& source, const LuminaireId& id) {
   return lamp;
 }
 
-std::optional<ClientLamp> describe(const TraceScene& scene, const Luminaire& luminaire) {
+// The lamps that stand for a luminaire, at most `most`; none where no simple shape does.
+std::vector<ClientLamp> describe(const TraceScene& scene, const Luminaire& luminaire, size_t most) {
   switch (luminaire.kind()) {
-    case Luminaire::Kind::lamp:
-      return describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)], luminaire.id);
-    case Luminaire::Kind::surface: return describe_surface(scene, luminaire);
+    case Luminaire::Kind::lamp: {
+      ClientLamp lamp = describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)], luminaire.id);
+      lamp.power = mean_of_channels(luminaire.power);
+      return {std::move(lamp)};
+    }
+    case Luminaire::Kind::surface: return describe_surface(scene, luminaire, most);
     case Luminaire::Kind::environment: break;
   }
   return {};
@@ -181,12 +207,13 @@ LampPlan plan_lamps(const World& world, size_t most) {
   for (const size_t i : by_power) {
     const float power = mean_of_channels(luminaires[i].power);
     if (plan.client.size() == most || !(power > 0)) break;
-    auto lamp = describe(world.surfaces(), luminaires[i]);
-    if (!lamp) continue;
-    lamp->power = power;
-    plan.client.push_back(std::move(*lamp));
+    std::vector<ClientLamp> lamps = describe(world.surfaces(), luminaires[i], most - plan.client.size());
+    if (lamps.empty()) continue;
+    std::move(lamps.begin(), lamps.end(), std::back_inserter(plan.client));
     plan.contained.erase(static_cast<int>(i));
   }
+  std::stable_sort(plan.client.begin(), plan.client.end(),
+                   [](const ClientLamp& a, const ClientLamp& b) { return a.power > b.power; });
   return plan;
 }
 

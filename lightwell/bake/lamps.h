@@ -18,8 +18,9 @@ struct LampPlan {
 };
 
 /// Divides a scene's luminaires: the client gets the `most` strongest that emit light and that a rectangle, a sphere or
-/// a punctual lamp describes. A piece of emissive surface is a rectangle when it lies in one plane, a sphere when it is
-/// closed and about equally far from its centre everywhere. Other shapes and the environment go to the grid.
+/// a punctual lamp describes. A piece of emissive surface is a rectangle when it lies in one plane, several where a
+/// texture makes parts of it shine, a sphere when it is closed and about equally far from its centre everywhere. Other
+/// shapes and the environment go to the grid.
 LampPlan plan_lamps(const World& world, size_t most = 16);
 
 }  // namespace lightwell

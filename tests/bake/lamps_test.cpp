@@ -157,6 +157,78 @@ TEST(PlanLamps, KeepsTheStrongest) {
 }
 
 // A sliver without area and a face below a black texel give no light: no lamp, though there is room for more.
+// A picture in sRGB that is white inside of rectangles of texels, and black elsewhere; `cut_at`: the first texel and
+// the one behind the last.
+struct Lit {
+  std::array<int, 2> first, last;
+};
+Image picture(int width, int height, std::initializer_list<Lit> lit) {
+  Image image{width, height, 3, {}};
+  image.pixels.assign(static_cast<size_t>(width * height * 3), 0);
+  for (const Lit& part : lit)
+    for (int y = part.first[1]; y < part.last[1]; y++)
+      for (int x = part.first[0]; x < part.last[0]; x++)
+        std::fill_n(image.pixels.begin() + 3 * (y * width + x), 3, uint8_t{255});
+  return image;
+}
+
+// A screen of 2 by 1 m round the origin that shows a picture, in quads of 4 by 4.
+Scene screen(Image image) {
+  Scene scene;
+  scene.images.push_back(std::move(image));
+  Material material = emitter({{3, 2, 1}});
+  material.emission_texture.image = 0;
+  Mesh mesh = rectangle(1, 0.5f, 4);
+  for (const Vec3f& p : mesh.positions) mesh.texcoords[0].push_back({{(p[0] + 1) / 2, 0.5f - p[1]}});
+  add(scene, std::move(mesh), material);
+  return scene;
+}
+
+float power_of(const std::vector<ClientLamp>& lamps) {
+  float power = 0;
+  for (const ClientLamp& lamp : lamps)
+    power += mean_of_channels(lamp.radiance) * 4 * length(lamp.half_u) * length(lamp.half_v) * pi;
+  return power;
+}
+
+TEST(PlanLamps, AScreenShinesWhereItsPictureDoes) {
+  // The left quarter of the upper half.
+  const LampPlan found = plan(screen(picture(64, 32, {{{0, 0}, {16, 16}}})));
+  ASSERT_EQ(found.client.size(), 1u);
+  const ClientLamp& lamp = found.client[0];
+  // Lookups fade over a texel, 3 cm, at the part's edges.
+  EXPECT_LT(length(lamp.center - Vec3f{{-0.75f, 0.25f, 0}}), 0.02f);
+  EXPECT_NEAR(length(lamp.half_u) * length(lamp.half_v), 0.25f * 0.25f, 0.006f);
+  // 1/8 of the area, half a texel more to the right and below.
+  EXPECT_NEAR(power_of(found.client), pi * 2 * (16.f * 16.f) / (64 * 32) * 2, 0.01f * pi * 2);
+  EXPECT_EQ(found.contained, LuminaireSet());
+}
+
+TEST(PlanLamps, PartsOfAPictureThatLieApartAreLampsOfTheirOwn) {
+  const Image image = picture(256, 128, {{{16, 16}, {48, 48}}, {{160, 80}, {240, 112}}, {{176, 8}, {200, 24}}});
+  const LampPlan found = plan(screen(image));
+  ASSERT_EQ(found.client.size(), 3u);
+  EXPECT_GE(found.client[0].power, found.client[1].power);
+  EXPECT_NEAR(found.client[0].center[0], 2 * 200 / 256.f - 1, 0.02f);
+  EXPECT_NEAR(found.client[0].center[1], 0.5f - 96 / 128.f, 0.02f);
+  for (const ClientLamp& lamp : found.client) EXPECT_EQ(lamp.luminaire, found.client[0].luminaire);
+  const float lit = 32 * 32 + 80 * 32 + 24 * 16;
+  EXPECT_NEAR(power_of(found.client), pi * 2 * 2 * lit / (256 * 128), 0.01f * pi * 4 * lit / (256 * 128));
+}
+
+TEST(PlanLamps, APictureTakesNoMoreLampsThanThereAre) {
+  Image image = picture(64, 32, {});
+  Random random(5, 0);
+  for (uint8_t& code : image.pixels) code = static_cast<uint8_t>(255 * random.uniform());
+  const LampPlan found = plan(screen(image), 5);
+  EXPECT_GE(found.client.size(), 1u);
+  EXPECT_LE(found.client.size(), 5u);
+  double sum = 0;
+  for (const uint8_t code : image.pixels) sum += std::pow((code / 255.0 + 0.055) / 1.055, 2.4);
+  // Codes below 0.04 are linear: nothing of the power.
+  EXPECT_NEAR(power_of(found.client), 2 * pi * 2 * sum / static_cast<double>(image.pixels.size()), 0.05);
+}
+
 TEST(PlanLamps, LeavesOutWhatGivesNoLight) {
   Scene scene;
   add(scene, rectangle(1, 1), emitter({{1, 1, 1}}));
