@@ -121,13 +121,16 @@ class NoiseOfAll {
   double squares_ = 0, sizes_ = 0;
 };
 
+/// Of a bundle in a file: its row in the table of blocks, and its check.
+constexpr size_t bytes_of_a_block = 16;
+
 size_t stream_bytes(const LightGrid& grid) {
   const auto stream = encode_lattice(grid);
   if (!stream) return std::numeric_limits<size_t>::max();
   ByteWriter parameters;
   stream->layout.write(parameters);
   size_t bytes = parameters.size();
-  for (const LightBundle& bundle : stream->bundles) bytes += bundle.payload.size();
+  for (const LightBundle& bundle : stream->bundles) bytes += bundle.payload.size() + bytes_of_a_block;
   return bytes;
 }
 

@@ -24,7 +24,7 @@ constexpr size_t sums_limit = size_t(768) << 20;
 /// Nodes on the longest axis of a grid that is to be divided; of a draft, and where there is little room.
 constexpr int coarse_nodes = 17, coarsest_nodes = 9;
 constexpr size_t little_room = 25'000;  // bytes
-/// Of the bytes, for what lies around the focus.
+/// Of the bytes, for what lies around the focus where something does.
 constexpr size_t share_of_surroundings = 8;
 
 using Clock = std::chrono::steady_clock;
@@ -45,13 +45,18 @@ struct Effort {
   Clock::time_point deadline = Clock::time_point::max();
 };
 
-Effort effort_of(const LightBakeOptions& options, Clock::time_point start, bool surroundings) {
+/// What a grid covers: all that there is, the focus of the scene, or what lies around that.
+enum class Extent { whole, focus, surroundings };
+
+Effort effort_of(const LightBakeOptions& options, Clock::time_point start, Extent extent) {
   // Three times the error would do with a ninth of the rays; it gets a third, since noise shows before it is measured.
   constexpr float usual_error = 0.01f, least_rays = 0.25f;
   const float rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
   if (options.nodes > 0) return {.nodes = options.nodes, .rays = rays};
   Effort effort{.nodes = coarse_nodes, .adaptive = true, .most_bytes = options.most_bytes, .rays = rays};
-  if (surroundings) effort.most_bytes /= share_of_surroundings;
+  const size_t of_surroundings = effort.most_bytes / share_of_surroundings;
+  if (extent == Extent::focus) effort.most_bytes -= of_surroundings;
+  if (extent == Extent::surroundings) effort.most_bytes = of_surroundings;
   if (options.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
   if (std::isfinite(options.seconds))
     effort.deadline =
@@ -258,7 +263,11 @@ Result<std::vector<BakedGrid>> bake_box(const World& world, const FreeSpace& spa
   judging.most_noise = most_noise;
   LW_TRY(judge, TestPoints::gather(light, judging, progress));
   const float error = judge.error(all);
-  for (BakedGrid& baked : grids) baked.estimated_error = error;
+  const ErrorEstimate estimate = judge.errors(all);
+  for (BakedGrid& baked : grids) {
+    baked.estimated_error = error;
+    baked.estimate = estimate;
+  }
   statistics.invalid_nodes += static_cast<size_t>(std::count(all.valid.begin(), all.valid.end(), 0));
   return grids;
 }
@@ -292,7 +301,8 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
   std::vector<BakedGrid> grids;
   for (const Box3f& box : boxes) {
-    const Effort effort = effort_of(options, start, !grids.empty());
+    const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
+    const Effort effort = effort_of(options, start, extent);
     LW_TRY(baked, bake_box(world, space, box, options, effort, progress, statistics));
     for (BakedGrid& grid : baked) {
       grid.priority = static_cast<int>(&boxes.back() - &box);
@@ -300,6 +310,7 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
     }
   }
   statistics.estimated_error = grids.front().estimated_error;
+  statistics.estimate = grids.front().estimate;
   statistics.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return grids;
 }

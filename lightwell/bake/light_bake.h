@@ -39,9 +39,10 @@ struct BakedGrid {
   GridContents contains{};
   /// Where grids overlap, that of the highest priority is looked up.
   int priority = 0;
-  /// Of all groups together: root mean square at test points of surfaces, as a share of the mean irradiance
-  /// (docs/light.md section 4).
+  /// Of all groups together: root mean square at test points of all kinds, as a share of the mean irradiance
+  /// (docs/light.md section 4), and the same of each kind.
   float estimated_error = 0;
+  ErrorEstimate estimate{};
 };
 
 /// The grids with what they hold, in the same order.
@@ -53,6 +54,7 @@ struct LightBakeStatistics {
   size_t nodes = 0;
   size_t invalid_nodes = 0;
   float estimated_error = 0;  ///< of the first grid
+  ErrorEstimate estimate{};
   /// Why the first grid was divided no further; nothing of a regular one.
   std::optional<Refinement> refinement;
 };

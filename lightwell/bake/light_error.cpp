@@ -61,7 +61,7 @@ class TestPoints::Estimate {
     const float passes = static_cast<float>(passes_);
     const bool hidden = on_surface_ ? insides_ > most_buried * passes
                                     : insides_ > most_insides * passes || behind_ > most_behind * passes;
-    Point point{.position = position_, .normal = normal_, .irradiance = {}, .variance = {}};
+    Point point{.position = position_, .normal = normal_, .on_surface = on_surface_, .irradiance = {}, .variance = {}};
     if (!hidden) point.set(halves_[0] / passes, halves_[1] / passes);
     return point;
   }
@@ -122,17 +122,35 @@ float TestPoints::noise() const {
   return sum > 0 ? static_cast<float>(std::sqrt(variance / count) * count / sum) : 0;
 }
 
+double TestPoints::square(const LightGrid& grid, const Point& point) {
+  const Vec3f difference = grid.irradiance(point.position, point.normal) - point.irradiance;
+  return static_cast<double>(dot(difference, difference) - brightness(point.variance));
+}
+
+double TestPoints::size() const {
+  double sum = 0;
+  for (const Point& point : points_) sum += static_cast<double>(brightness(point.irradiance));
+  return sum > 0 ? sum / (3 * static_cast<double>(points_.size())) : 1;
+}
+
 float TestPoints::error(const LightGrid& grid) const {
-  double squares = 0, sum = 0;
-  for (const Point& point : points_) {
-    const Vec3f difference = grid.irradiance(point.position, point.normal) - point.irradiance;
-    squares += static_cast<double>(dot(difference, difference) - brightness(point.variance));
-    sum += static_cast<double>(brightness(point.irradiance));
-  }
-  const double count = 3 * static_cast<double>(points_.size());
   if (points_.empty()) return 0;
-  const double size = sum > 0 ? sum / count : 1;
-  return static_cast<float>(std::sqrt(std::max(squares, 0.0) / count) / size);
+  double squares = 0;
+  for (const Point& point : points_) squares += square(grid, point);
+  return static_cast<float>(std::sqrt(std::max(squares, 0.0) / (3 * static_cast<double>(points_.size()))) / size());
+}
+
+ErrorEstimate TestPoints::errors(const LightGrid& grid) const {
+  const auto of_kind = [&](bool on_surface) {
+    double squares = 0, count = 0;
+    for (const Point& point : points_) {
+      if (point.on_surface != on_surface) continue;
+      squares += square(grid, point);
+      count += 3;
+    }
+    return count > 0 ? static_cast<float>(std::sqrt(std::max(squares, 0.0) / count) / size()) : 0.0f;
+  };
+  return {.surface = of_kind(true), .free = of_kind(false)};
 }
 
 std::vector<TestPoints::Excess> TestPoints::excess(const LightGrid& grid) const {

@@ -7,6 +7,7 @@
 
 #include "lightwell/bake/gathered_light.h"
 #include "lightwell/base/progress.h"
+#include "lightwell/light/error_estimate.h"
 #include "lightwell/light/grid.h"
 
 namespace lightwell {
@@ -41,6 +42,8 @@ class TestPoints {
   /// least, say nothing of what is seen, and are left out. Where no point is lit it is
   /// the difference itself, W/m2.
   float error(const LightGrid& grid) const;
+  /// The same of each kind of points alone, as a share of the mean irradiance of all; 0 where there are none.
+  ErrorEstimate errors(const LightGrid& grid) const;
   /// The mean difference, of any sign, as a share of the mean irradiance: the few points of narrow gaps, which a root
   /// mean square is made of, do not rule it.
   float mean_error(const LightGrid& grid) const;
@@ -56,7 +59,8 @@ class TestPoints {
   class Estimate;
   struct Point {
     Vec3f position{};
-    Vec3f normal{};      // of the surface; in free space that of one that might be there
+    Vec3f normal{};  // of the surface; in free space that of one that might be there
+    bool on_surface = true;
     Vec3f irradiance{};  // W/m2
     Vec3f variance{};
 
@@ -67,6 +71,10 @@ class TestPoints {
     }
   };
   static void keep_lit(std::vector<Point>& points);
+  /// The squared difference of a grid at a point beyond the noise of the gathered light, summed over the colours.
+  static double square(const LightGrid& grid, const Point& point);
+  /// The mean irradiance of a colour; 1 where no point is lit.
+  double size() const;
   std::vector<Point> points_;
 };
 

@@ -21,7 +21,7 @@ std::vector<LightPart> light_parts(const World& world, const LuminaireSet& conta
     parts.push_back({.group = part.group, .luminaires = only_sky, .contained = only_sky, .reflected = false});
   };
   if (groups.size() <= 1) {
-    add({}, LuminaireSet::all(static_cast<size_t>(count)));
+    add(groups.empty() ? "" : groups.front().name, LuminaireSet::all(static_cast<size_t>(count)));
     return parts;
   }
   for (const LightGroup& group : groups) add(group.name, group.luminaires);

@@ -80,26 +80,13 @@ void count_hits(const World& world, const MixedPrimitives& mixed, int threads, c
       [&] { return progress.cancelled(); });
 }
 
-/// Turns faces, and the normals of vertices that then point to their backs. A vertex that other faces share keeps its
-/// own.
+/// Turns what is wrong; true when something was.
 bool turn(Mesh& mesh, const Mixed& mixed) {
-  std::vector<uint8_t> shared(mesh.positions.size());
-  std::vector<size_t> turned;
-  for (size_t i = 0; i < mesh.faces.size(); i++)
-    if (mixed.wrong(i))
-      turned.push_back(i);
-    else
-      for (const uint32_t vertex : mesh.faces[i]) shared[vertex] = 1;
-  for (const size_t i : turned) {
-    Face& face = mesh.faces[i];
-    std::swap(face[1], face[2]);
-    const Vec3f& corner = mesh.positions[face[0]];
-    const Vec3f normal = cross(mesh.positions[face[1]] - corner, mesh.positions[face[2]] - corner);
-    for (const uint32_t vertex : face)
-      if (!mesh.normals.empty() && !shared[vertex] && dot(mesh.normals[vertex], normal) < 0)
-        mesh.normals[vertex] = -mesh.normals[vertex];
-  }
-  return !turned.empty();
+  std::vector<uint8_t> wrong(mesh.faces.size());
+  for (size_t i = 0; i < wrong.size(); i++) wrong[i] = mixed.wrong(i);
+  if (std::find(wrong.begin(), wrong.end(), 1) == wrong.end()) return false;
+  turn_faces(mesh, wrong);
+  return true;
 }
 
 }  // namespace

@@ -5,10 +5,12 @@
 #include <atomic>
 #include <set>
 
+#include "lightwell/bake/enclosed_lamps.h"
 #include "lightwell/bake/mesh_name.h"
 #include "lightwell/bake/mixed_winding.h"
 #include "lightwell/bake/surface_pieces.h"
 #include "lightwell/base/parallel.h"
+#include "lightwell/mesh/winding.h"
 #include "lightwell/trace/photons.h"
 
 namespace lightwell {
@@ -28,6 +30,9 @@ constexpr double least_enclosed = 0.75;
 constexpr double most_front = 0.02, most_front_of_both = 3;
 /// A piece in which there is nothing but a lamp is a bulb, unless it is at least this share of all surfaces.
 constexpr double least_area = 0.1;
+/// What is around a lamp farther away, of the diagonal of the scene's focus, is the scene's own room and no cupboard in
+/// it: a corner of the focus is half of that away at least.
+constexpr float most_reach = 0.4f;
 
 /// What the photons find out about a piece.
 struct Sides {
@@ -135,7 +140,7 @@ class Turner {
   bool turn() {
     for (size_t i = 0; i < scene_.primitives.size(); i++) {
       Primitive& primitive = scene_.primitives[i];
-      if (turn_faces(i, primitive.mesh)) turned_.insert(name_of(primitive));
+      if (turn_faces_of(i, primitive.mesh)) turned_.insert(name_of(primitive));
       bool both = false;
       pieces_.for_each_face(i, [&](size_t, size_t piece) { both = both || is_lit_within(piece); });
       if (both) {
@@ -146,11 +151,17 @@ class Turner {
     return !turned_.empty() || !two_sided_.empty();
   }
 
-  void tell(Report& report) const {
+  /// `lamps`: those that were enclosed before anything was turned, but by all of the scene.
+  void tell(Report& report, const std::vector<EnclosedLamp>& lamps) const {
     if (!turned_.empty())
       report.warn(list_of(turned_) + ": faces look away from the light on all sides; they are turned round");
     if (!two_sided_.empty())
       report.warn(list_of(two_sided_) + ": faces look outwards, but there is light inside; both sides are shown");
+    for (const EnclosedLamp& enclosed : lamps) {
+      const std::string mesh = name_of(scene_.primitives[enclosed.primitive]);
+      if (turned_.contains(mesh) || two_sided_.contains(mesh))
+        report.warn("lamp \"" + enclosed.lamp + "\" stands inside of " + mesh + ": its light stays within");
+    }
   }
 
  private:
@@ -158,19 +169,14 @@ class Turner {
     return !sides_[piece].turned() && sides_[piece].lit_within(pieces_.extent(piece));
   }
 
-  bool turn_faces(size_t primitive, Mesh& mesh) {
-    std::vector<uint8_t> turned(mesh.positions.size());
+  bool turn_faces_of(size_t primitive, Mesh& mesh) {
+    std::vector<uint8_t> wrong(mesh.faces.size());
     bool any = false;
-    pieces_.for_each_face(primitive, [&](size_t index, size_t piece) {
-      if (!sides_[piece].turned()) return;
-      Face& face = mesh.faces[index];
-      for (const uint32_t vertex : face) turned[vertex] = 1;
-      std::swap(face[1], face[2]);
-      any = true;
+    pieces_.for_each_face(primitive, [&](size_t face, size_t piece) {
+      wrong[face] = sides_[piece].turned();
+      any = any || wrong[face];
     });
-    // No vertex is shared with a piece that is not turned.
-    for (size_t i = 0; i < mesh.normals.size(); i++)
-      if (turned[i]) mesh.normals[i] = -mesh.normals[i];
+    if (any) turn_faces(mesh, wrong);
     return any;
   }
 
@@ -200,9 +206,16 @@ class Turner {
   std::set<std::string> turned_, two_sided_;
 };
 
-}  // namespace
+/// A viewer shades by the normals of vertices: they are to point where the faces do, which light has turned by now.
+void turn_normals_to_faces(Scene& scene, Report& report) {
+  std::set<std::string> names;
+  for (Primitive& primitive : scene.primitives)
+    if (turn_opposed_normals(primitive.mesh)) names.insert(mesh_name(scene, primitive));
+  if (!names.empty()) report.warn(list_of(names) + ": normals point to the backs of the faces; they are turned round");
+}
 
-Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int threads, Progress& progress, Report& report) {
+Result<std::unique_ptr<const World>> world_with_faces_turned(Scene& scene, int threads, Progress& progress,
+                                                             Report& report) {
   LW_TRY(world, World::build(scene, threads));
   if (world->lights().dark()) return std::move(world);
   std::vector<uint8_t> met = instances_met_from_behind(*world, threads, progress);
@@ -219,11 +232,22 @@ Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int thread
   if (pieces.count() == 0 && !progress.cancelled()) return std::move(world);
   const std::vector<Sides> sides = look_at_sides(*world, pieces, threads, progress);
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
+  std::vector<EnclosedLamp> lamps = enclosed_lamps(*world);
+  const float of_all = most_reach * length(world->surfaces().focus().size());
+  std::erase_if(lamps, [&](const EnclosedLamp& lamp) { return lamp.reach > of_all; });
   Turner turner(scene, pieces, sides);
   // The world refers to the scene as it was: it must not be asked any more.
   if (!turner.turn()) return std::move(world);
-  turner.tell(report);
+  turner.tell(report, lamps);
   return World::build(scene, threads);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int threads, Progress& progress, Report& report) {
+  LW_TRY(world, world_with_faces_turned(scene, threads, progress, report));
+  turn_normals_to_faces(scene, report);
+  return std::move(world);
 }
 
 }  // namespace lightwell

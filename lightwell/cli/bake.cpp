@@ -41,6 +41,7 @@ struct Bake {
   LampPlan plan;
   std::vector<LightGroup> groups;
   LightField field;
+  bool dark = false;  // there is no light in it
   PackLight light;
   std::vector<uint8_t> file;
   std::unique_ptr<NodeJournal> journal;  // with --resume
@@ -129,6 +130,25 @@ LightBakeOptions light_options(const Options& options, const Bake& bake) {
   return light;
 }
 
+/// What to look at when a grid is black: where all light comes from outside, the surfaces have no opening.
+std::string reason_of_darkness(const World& world) {
+  bool sun = false, sky = false;
+  for (const Luminaire& luminaire : world.lights().luminaires()) {
+    if (!(mean_of_channels(luminaire.power) > 0)) continue;
+    const bool is_sky = luminaire.kind() == Luminaire::Kind::environment;
+    const bool is_sun = luminaire.kind() == Luminaire::Kind::lamp &&
+                        world.scene().lamps[static_cast<size_t>(luminaire.index)].kind == Lamp::Kind::sun;
+    if (!is_sky && !is_sun) return {};
+    sky |= is_sky;
+    sun |= is_sun;
+  }
+  return std::string("; ") +
+         (sun && sky ? "the sun and the sky meet"
+          : sun      ? "the sun meets"
+                     : "the sky meets") +
+         " only outsides: the rooms have no opening";
+}
+
 Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   const World& world = *bake.world;
   warn_of_enclosed_lamps(world, bake.report);
@@ -148,18 +168,21 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   stated.seed = options.scene.import.seed;
   LW_TRY(camera, choose_camera(world, ""));
   bake.camera = camera;
-  std::vector<float> errors;
-  for (const BakedGrid& grid : grids) errors.push_back(grid.estimated_error);
-  bake.field = LightField(layers_of(std::move(grids)));
-  if (is_dark(bake.field)) bake.report.warn("no light reaches the free space of the scene: its light grid is black");
-  for (size_t i = 0; i < errors.size(); i++) {
-    const LightField::Layer& layer = bake.field.layers()[i];
-    stated.grid = &layer.grid;
-    stated.contains = layer.contents;
-    stated.priority = layer.priority;
-    stated.estimated_error = errors[i];
-    bake.light.grids.push_back(stated);
+  std::vector<PackGrid> all;
+  for (const BakedGrid& grid : grids) {
+    stated.contains = grid.contains;
+    stated.priority = grid.priority;
+    stated.estimated_error = grid.estimated_error;
+    stated.estimate = grid.estimate;
+    all.push_back(stated);
   }
+  bake.field = LightField(layers_of(std::move(grids)));
+  bake.dark = is_dark(bake.field);
+  if (bake.dark)
+    bake.report.warn("no light reaches the free space of the scene: its light grid is black" +
+                     reason_of_darkness(world));
+  for (size_t i = 0; i < all.size(); i++) all[i].grid = &bake.field.layers()[i].grid;
+  bake.light.grids = std::move(all);
   bake.light.exposure = choose_exposure(world, camera, bake.field, contained, options.scene.threads);
   return {};
 }
@@ -218,7 +241,11 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
         {"light", bake.pack_statistics.light_bytes},
         {"texture", bake.pack_statistics.texture_bytes}}},
       {"estimated_error", bake.light_statistics.estimated_error},
+      {"estimate",
+       {{"surface", bake.light_statistics.estimate.surface}, {"free", bake.light_statistics.estimate.free}}},
       {"warnings", bake.report.warnings}};
+  // Of no light there is nothing to be wrong by, and a 0 would look like praise.
+  if (bake.dark) figures["estimated_error"] = figures["estimate"] = nullptr;
   if (bake.light_statistics.refinement) figures["refined_to"] = name_of(*bake.light_statistics.refinement);
   if (options.resume) figures["resumed_nodes"] = bake.resumed_nodes;
   return figures;

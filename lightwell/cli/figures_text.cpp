@@ -29,6 +29,9 @@ Meaning meaning_of(const std::string& key, Unit outer) {
       {"refined_to", {"cells of the light grid refined up to"}},
       {"resumed_nodes", {"nodes known from the run before"}},
       {"estimated_error", {"estimated error of the irradiance, root mean square", Unit::share}},
+      {"estimate", {"of it", Unit::share}},
+      {"surface", {"on surfaces", Unit::share}},
+      {"free", {"in free space", Unit::share}},
       {"spp", {"samples a pixel"}}};
   const auto found = known.find(key);
   return found == known.end() ? Meaning{key, outer} : found->second;
@@ -65,6 +68,7 @@ std::string value_text(const Figures& value, Unit unit) {
 std::string figures_text(const Figures& figures) {
   std::string text;
   for (const auto& [key, value] : figures.items()) {
+    if (value.is_null()) continue;
     const Meaning meaning = meaning_of(key, Unit::none);
     text += meaning.name + ": " + value_text(value, meaning.unit) + "\n";
   }

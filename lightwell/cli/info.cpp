@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lightwell/asset/light_asset.h"
 #include "lightwell/asset/mesh_asset.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/info_text.h"
@@ -31,14 +32,23 @@ Result<Figures> mesh_figures(const PackReader& pack, size_t stream) {
                  {"bits_per_vertex", 8.0 * entry.length / std::max(1u, layout.vertices - layout.base_vertices)}};
 }
 
-Figures grid_figures(const OpenedPack& pack, const GridDescription& grid) {
+Result<Figures> grid_figures(const OpenedPack& pack, const GridDescription& grid) {
+  LW_TRY(light, open_asset_as<LightAsset>(pack.reader(), grid.stream));
   const Json said = to_json(std::span(&grid, 1))["grids"][0];
   const double bytes = pack.reader().directory().streams[grid.stream].length;
-  return {{"nodes", said["nodes"]},
-          {"cell", said["cell"]},
-          {"codec", grid.codec},
-          {"bytes_per_node", bytes / static_cast<double>(grid.shape.count())},
-          {"contains", said["contains"]}};
+  int levels = 0;
+  for (const Brick& brick : light->bricks()) levels = std::max(levels, brick.level);
+  Figures figures{{"nodes", said["nodes"]},
+                  {"cell", said["cell"]},
+                  {"levels", levels},
+                  {"bricks", light->bricks().size()},
+                  {"all_nodes", light->total()},
+                  {"codec", grid.codec},
+                  {"bytes_per_node", bytes / static_cast<double>(light->total())},
+                  {"estimate", said["estimate"]},
+                  {"contains", said["contains"]}};
+  if (said.contains("group")) figures["group"] = said["group"];
+  return figures;
 }
 
 Result<Figures> describe(const std::string& path, bool blocks) {
@@ -60,7 +70,10 @@ Result<Figures> describe(const std::string& path, bool blocks) {
     LW_TRY(mesh, mesh_figures(pack.reader(), i));
     figures["meshes"].push_back(std::move(mesh));
   }
-  for (const GridDescription& grid : pack.grids()) figures["grids"].push_back(grid_figures(pack, grid));
+  for (const GridDescription& grid : pack.grids()) {
+    LW_TRY(of_grid, grid_figures(pack, grid));
+    figures["grids"].push_back(std::move(of_grid));
+  }
   figures["lamps"] = to_json(pack.lamps())["lamps"];
   return figures;
 }

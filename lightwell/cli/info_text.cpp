@@ -25,8 +25,13 @@ std::string mesh_text(const Figures& mesh) {
 
 std::string grid_text(const Figures& grid) {
   std::string text = joined(grid["nodes"], " x ") + " nodes, cells of " + joined(grid["cell"], " x ") + " m, ";
-  if (grid.contains("bytes_per_node")) text += short_number(grid["bytes_per_node"]) + " bytes a node, ";
-  return text + "light: " + joined(grid["contains"], ", ");
+  if (grid["bricks"] > 0)
+    text += counted(grid["bricks"], "brick") + " of " + counted(grid["levels"], "level") + ", " +
+            grouped(grid["all_nodes"]) + " nodes in all, ";
+  text += short_number(grid["bytes_per_node"]) + " bytes a node, light: " + joined(grid["contains"], ", ");
+  if (grid.contains("group")) text += ", group " + grid["group"].get<std::string>();
+  return text + ", estimated error " + short_number(100 * grid["estimate"]["surface"].get<double>()) +
+         " % on surfaces, " + short_number(100 * grid["estimate"]["free"].get<double>()) + " % in free space";
 }
 
 // The unit of a member of a lamp (docs/format.md).

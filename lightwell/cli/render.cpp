@@ -10,7 +10,9 @@
 namespace lightwell {
 namespace {
 
-constexpr uint64_t exposure_photons = 200'000;  // a tenth of an EV needs no more
+/// Where the light is looked up for the exposure only: a tenth of an EV needs no more.
+constexpr uint64_t exposure_photons = 200'000;
+constexpr int exposure_nodes = 12;
 
 struct Options {
   SceneOptions scene;
@@ -68,7 +70,10 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   const bool chooses_exposure = !options.exposure && is_for_the_eye(options.output);
   if (needs_field || chooses_exposure) {
     SceneOptions light = options.scene;
-    if (!needs_field) light.photons = std::min(light.photons, exposure_photons);
+    if (!needs_field) {
+      light.photons = std::min(light.photons, exposure_photons);
+      light.nodes = exposure_nodes;
+    }
     LW_TRY(found, light_of(opened, light, *world, held, groups, progress, options.light_level));
     field = std::move(found);
   }
@@ -82,6 +87,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
     render_options.light.field = &field;
     render_options.light.held = held;
   }
+  if (is_for_the_eye(options.output)) render_options.display = display;
   figures.prepare_seconds = watch.lap();
 
   render_options.seed = options.scene.import.seed;

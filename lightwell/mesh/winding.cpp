@@ -10,6 +10,9 @@
 namespace lightwell {
 namespace {
 
+/// Of a mesh's vertices: so many normals have to point the wrong way before all are turned.
+constexpr double nearly_all = 0.95;
+
 /// An edge of a face between welded vertices a < b.
 struct Edge {
   uint32_t a = 0, b = 0;
@@ -93,6 +96,29 @@ std::vector<uint8_t> wound_against_the_rest(const Mesh& mesh) {
         against[face] ^= 1;
   }
   return against;
+}
+
+void turn_faces(Mesh& mesh, const std::vector<uint8_t>& marked) {
+  std::vector<uint8_t> turned(mesh.positions.size()), kept(mesh.positions.size());
+  for (size_t i = 0; i < mesh.faces.size(); i++) {
+    Face& face = mesh.faces[i];
+    for (const uint32_t vertex : face) (marked[i] ? turned : kept)[vertex] = 1;
+    if (marked[i]) std::swap(face[1], face[2]);
+  }
+  if (mesh.normals.empty()) return;
+  const std::vector<Vec3f> fronts = smooth_normals(mesh);
+  for (size_t i = 0; i < fronts.size(); i++)
+    if (turned[i] && !kept[i] && dot(mesh.normals[i], fronts[i]) < 0) mesh.normals[i] = -mesh.normals[i];
+}
+
+bool turn_opposed_normals(Mesh& mesh) {
+  if (mesh.normals.empty()) return false;
+  const std::vector<Vec3f> fronts = smooth_normals(mesh);
+  size_t opposed = 0;
+  for (size_t i = 0; i < fronts.size(); i++) opposed += dot(mesh.normals[i], fronts[i]) < 0;
+  if (static_cast<double>(opposed) < nearly_all * static_cast<double>(fronts.size())) return false;
+  for (Vec3f& normal : mesh.normals) normal = -normal;
+  return true;
 }
 
 }  // namespace lightwell

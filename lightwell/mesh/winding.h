@@ -13,4 +13,12 @@ namespace lightwell {
 /// opposite directions. A surface that cannot be wound alike everywhere, as a Moebius strip, has none.
 std::vector<uint8_t> wound_against_the_rest(const Mesh& mesh);
 
+/// Turns the faces that are marked with 1, and the normals of their vertices that then point to the backs of the faces
+/// round them. A vertex that other faces share keeps its own.
+void turn_faces(Mesh& mesh, const std::vector<uint8_t>& marked);
+
+/// Turns all normals when nearly all of them point to the backs of the faces round their vertices; else it changes
+/// nothing, since some do so on purpose, as those of leaves that are shaded as a crown. True when it did.
+bool turn_opposed_normals(Mesh& mesh);
+
 }  // namespace lightwell

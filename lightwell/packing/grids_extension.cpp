@@ -24,6 +24,7 @@ Json grid_json(const GridDescription& grid) {
             {"codec", grid.codec},
             {"normalOffset", to_json(grid.normal_offset)},
             {"estimatedError", to_json(grid.estimated_error)},
+            {"estimate", {{"surface", to_json(grid.estimate.surface)}, {"free", to_json(grid.estimate.free)}}},
             {"priority", grid.priority},
             {"contains", contents_json(grid.contains)}};
   if (!grid.contains.group.empty()) json["group"] = grid.contains.group;
@@ -53,6 +54,9 @@ Result<GridDescription> read_grid(const Json& json, const std::string& name) {
   grid.codec = reader.whole("codec");
   grid.normal_offset = reader.real("normalOffset");
   grid.estimated_error = reader.real("estimatedError");
+  MemberReader estimate(reader.object("estimate"), name + ".estimate");
+  grid.estimate = {.surface = estimate.real("surface"), .free = estimate.real("free")};
+  LW_CHECK(estimate.finish(true));
   grid.priority = static_cast<int>(reader.whole("priority"));
   grid.contains = read_contents(reader);
   return reader.finish(grid);

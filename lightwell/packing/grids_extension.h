@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lightwell/gltf/json.h"
+#include "lightwell/light/error_estimate.h"
 #include "lightwell/light/grid.h"
 #include "lightwell/light/light_field.h"
 
@@ -19,8 +20,9 @@ struct GridDescription {
   GridShape shape;
   uint32_t codec = 0;  ///< of that stream
   float normal_offset = 0;
-  float estimated_error = 0;  ///< RMS error as a fraction of the RMS irradiance
-  int priority = 0;           ///< where grids of the same contents overlap, the highest priority is looked up
+  float estimated_error = 0;  ///< root mean square error as a share of the mean irradiance
+  ErrorEstimate estimate{};
+  int priority = 0;  ///< where grids of the same contents overlap, the highest priority is looked up
   GridContents contains;
 
   bool operator==(const GridDescription&) const = default;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "lightwell/light/error_estimate.h"
 #include "lightwell/light/lattice_record.h"
 #include "lightwell/light/light_field.h"
 #include "lightwell/scene/client_lamp.h"
@@ -19,8 +20,9 @@ enum class LightNodeOrder : uint8_t {
 struct PackGrid {
   const LightGrid* grid = nullptr;
   GridContents contains{};
-  float estimated_error = 0;  ///< RMS error as a fraction of the grid's RMS
-  int priority = 0;           ///< where grids of the same contents overlap, the highest priority is looked up
+  float estimated_error = 0;  ///< root mean square error as a share of the mean irradiance
+  ErrorEstimate estimate{};
+  int priority = 0;  ///< where grids of the same contents overlap, the highest priority is looked up
   LightNodeOrder order = LightNodeOrder::lattice;
   LightRecord record = LightRecord::moments;  ///< of the lattice order
   uint64_t seed = 1;                          ///< of the order of slices

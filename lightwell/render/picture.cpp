@@ -11,20 +11,38 @@
 
 namespace lightwell {
 
-Vec3f neutral_tone(Vec3f colour) {
-  const float compression_begins = 0.8f - 0.04f;
-  const float desaturation = 0.15f;
+namespace {
 
+// Of the neutral tone curve: where it begins to compress, and how quickly what is brighter turns to white.
+constexpr float compression_begins = 0.8f - 0.04f, room = 1 - compression_begins;
+constexpr float desaturation = 0.15f;
+
+float share_of_white(float peak, float new_peak) { return 1 - 1 / (desaturation * (peak - new_peak) + 1); }
+
+/// The inverse of neutral_tone.
+Vec3f before_neutral_tone(Vec3f colour) {
+  constexpr float brightest = 0.998f;  // white itself is shown by endless light only
+  if (const float new_peak = std::min(max_component(colour), brightest); new_peak > compression_begins) {
+    const float peak = room * room / (1 - new_peak) - room + compression_begins;
+    const float white = share_of_white(peak, new_peak);
+    for (float& channel : colour.e)
+      channel = std::max(0.0f, (std::min(channel, new_peak) - new_peak * white) / (1 - white)) * (peak / new_peak);
+  }
+  const float least = *std::min_element(colour.e.begin(), colour.e.end());
+  return colour + Vec3f::filled((least < 0.04f ? std::sqrt(least / 6.25f) : least + 0.04f) - least);
+}
+
+}  // namespace
+
+Vec3f neutral_tone(Vec3f colour) {
   const float least = *std::min_element(colour.e.begin(), colour.e.end());
   colour -= Vec3f::filled(least < 0.08f ? least - 6.25f * least * least : 0.04f);
   const float peak = max_component(colour);
   if (peak < compression_begins) return colour;
 
-  const float room = 1 - compression_begins;
   const float new_peak = 1 - room * room / (peak + room - compression_begins);
-  const float towards_white = 1 - 1 / (desaturation * (peak - new_peak) + 1);
   colour *= new_peak / peak;
-  return colour + (Vec3f::filled(new_peak) - colour) * towards_white;
+  return colour + (Vec3f::filled(new_peak) - colour) * share_of_white(peak, new_peak);
 }
 
 Vec3f Display::operator()(const Vec3f& radiance) const {
@@ -32,6 +50,12 @@ Vec3f Display::operator()(const Vec3f& radiance) const {
   if (tone == ToneCurve::neutral) colour = neutral_tone(colour);
   for (float& channel : colour.e) channel = channel > 0 ? std::min(channel, 1.0f) : 0.0f;
   return colour;
+}
+
+Vec3f Display::radiance_of(Vec3f colour) const {
+  for (float& channel : colour.e) channel = channel > 0 ? std::min(channel, 1.0f) : 0.0f;
+  if (tone == ToneCurve::neutral) colour = before_neutral_tone(colour);
+  return colour * std::exp2(-exposure);
 }
 
 Image displayed(const Picture& picture, const Display& display) {

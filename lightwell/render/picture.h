@@ -26,6 +26,9 @@ struct Display {
 
   /// What the screen emits, linear, within [0, 1].
   Vec3f operator()(const Vec3f& radiance) const;
+  /// The radiance that it shows as a colour, linear, within [0, 1]. Bright colours that are more saturated than the
+  /// tone curve leaves them come as near as it does.
+  Vec3f radiance_of(Vec3f colour) const;
 };
 
 /// The Khronos PBR Neutral tone curve (Khronos Group, 2024): colours below 0.8 keep their hue and, apart from 4 % for

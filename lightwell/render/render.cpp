@@ -48,7 +48,8 @@ class Renderer {
     const Surface surface = surfaces.surface(hit);
     const Receiver receiver = Receiver::seen(surfaces, hit, surface, ray.direction);
     // What is unlit shows its colour, as in every viewer, and no light.
-    if (surfaces.material(hit.instance).unlit) return total ? hit.tint * surface.bsdf.diffuse : Vec3f{};
+    if (surfaces.material(hit.instance).unlit)
+      return total ? hit.tint * options_.display.radiance_of(surface.bsdf.diffuse) : Vec3f{};
     Vec3f sum = total ? factors().of(world_.lights().luminaire(hit)) * surfaces.emission(hit, surface) : Vec3f{};
     if (integrator_->samples()) {
       const ReflectedLight light = integrator_->sample(receiver, random);

@@ -12,6 +12,8 @@ struct RenderOptions {
   IntegratorOptions light;
   int width = 640, height = 480;  ///< pixels
   int samples = 64;               ///< a pixel
+  /// How the picture will be shown: what is unlit is to look as its file has it.
+  Display display{.exposure = 0, .tone = ToneCurve::none};
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };

@@ -131,11 +131,24 @@ class Importer {
     flat_.warn(report_, "its transform flattens what it holds; left out of the bake");
     hidden_.warn(report_, "is not visible (KHR_node_visibility); left out of the bake");
     lost_joints_.warn(report_, "is a joint that the scene does not show; taken to be at the origin");
+    if (scene_.instances.empty()) LW_CHECK(refuse_points());
     undrawable_.warn(report_, "has no triangles; copied as it is and left out of the bake");
     return std::move(scene_);
   }
 
  private:
+  /// Says of a file without any surface that it holds points, where it does.
+  Result<void> refuse_points() const {
+    for (const Json& mesh : member(scene_.document.json, "meshes"))
+      for (const Json& primitive : member(mesh, "primitives")) {
+        if (member(primitive, "mode") != 0) continue;
+        const bool splats = member(primitive, "extensions").contains("KHR_gaussian_splatting");
+        return fail("", std::string("holds ") + (splats ? "Gaussian splats" : "a point cloud") +
+                            " and no triangles; Lightwell takes meshes");
+      }
+    return {};
+  }
+
   struct Visit {
     int node;
     Transform parent;

@@ -38,6 +38,8 @@ std::optional<std::string> unsupported_format(Bytes file) {
       {"#usda"sv, "a USD file"},
       {"PK\x03\x04"sv, "a ZIP archive"},
       {"<"sv, "an XML file"},
+      {"LASF"sv, "a point cloud (LAS); Lightwell takes meshes"},
+      {"NGSP"sv, "Gaussian splats (SPZ); Lightwell takes meshes"},
       {"\xfe\xff"sv, "UTF-16 text; save it as UTF-8"},
       {"\xff\xfe"sv, "UTF-16 text; save it as UTF-8"},
   };

@@ -42,13 +42,19 @@ uint32_t unread(const tinyobj::material_t& material) {
   return bits;
 }
 
+ObjTexture texture_of(const std::string& file, const tinyobj::texture_option_t& options) {
+  const auto& offset = options.origin_offset;
+  const auto& scale = options.scale;
+  return {file, {{{offset[0], offset[1]}}, {{scale[0], scale[1]}}, options.clamp}};
+}
+
 ObjMaterial material_of(const tinyobj::material_t& material, size_t folder) {
   return {.name = material.name,
           .color = clamped(material.diffuse, 1),
           .emission = clamped(material.emission, 1e9f),
           .opacity = clamped(material.dissolve, 1),
-          .color_map = material.diffuse_texname,
-          .emission_map = material.emissive_texname,
+          .color_map = texture_of(material.diffuse_texname, material.diffuse_texopt),
+          .emission_map = texture_of(material.emissive_texname, material.emissive_texopt),
           .opacity_map = material.alpha_texname,
           .unread = unread(material),
           .folder = static_cast<uint32_t>(folder)};
@@ -103,21 +109,21 @@ std::string ObjMaterialReader::texture_uri(const std::string& name, const ObjMat
   return as_uri((folders_[material.folder] / name).lexically_normal().generic_string());
 }
 
-Json ObjMaterialReader::texture(SceneBuilder& scene, const std::string& name, const ObjMaterial& material) const {
-  return {{"index", scene.texture(texture_uri(name, material))}};
+Json ObjMaterialReader::texture(SceneBuilder& scene, const ObjTexture& texture, const ObjMaterial& material) const {
+  return scene.texture(texture_uri(texture.file, material), texture.placement);
 }
 
 /// glTF has a colour's opacity in the alpha of its image: the map of another image becomes that.
 void ObjMaterialReader::add_opacity(SceneBuilder& scene, const ObjMaterial& material, Json& json) const {
   json["alphaMode"] = "MASK";
-  if (material.opacity_map == material.color_map) return;
+  if (material.opacity_map == material.color_map.file) return;
   const auto mask = read_uri(texture_uri(material.opacity_map, material), folder_);
-  auto color = material.color_map.empty() ? Result<std::vector<uint8_t>>()
-                                          : read_uri(texture_uri(material.color_map, material), folder_);
+  auto color = material.color_map.file.empty() ? Result<std::vector<uint8_t>>()
+                                               : read_uri(texture_uri(material.color_map.file, material), folder_);
   const Result<std::vector<uint8_t>> cut =
       mask && color ? cut_out(*color, *mask, limit_) : fail(mask ? color.error() : mask.error());
   if (cut)
-    json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", scene.texture(*cut)}};
+    json["pbrMetallicRoughness"]["baseColorTexture"] = scene.texture(*cut, material.color_map.placement);
   else
     report_.warn("material " + material.name.substr(0, 80) +
                  ": map_d is left out: " + naming_image_option(cut.error()).message());
@@ -131,14 +137,14 @@ int ObjMaterialReader::add_to(SceneBuilder& scene, size_t index, bool has_texcoo
                    " is not supported and left out; surfaces are diffuse");
   Json json = lambertian_json(
       {.name = material.name, .color = material.color, .emission = material.emission, .double_sided = true});
-  if (has_texcoords && !material.color_map.empty())
+  if (has_texcoords && !material.color_map.file.empty())
     json["pbrMetallicRoughness"]["baseColorTexture"] = texture(scene, material.color_map, material);
-  if (has_texcoords && !material.emission_map.empty()) {
+  if (has_texcoords && !material.emission_map.file.empty()) {
     json["emissiveTexture"] = texture(scene, material.emission_map, material);
     // A map without a factor is meant to be seen.
     if (max_component(material.emission) == 0) json["emissiveFactor"] = {1, 1, 1};
   }
-  if (!has_texcoords && !(material.color_map.empty() && material.opacity_map.empty()))
+  if (!has_texcoords && !(material.color_map.file.empty() && material.opacity_map.empty()))
     report_.warn("material " + material.name.substr(0, 80) + ": its textures are left out where faces have no vt");
   if (material.opacity < 1) {
     json["pbrMetallicRoughness"]["baseColorFactor"][3] = material.opacity;

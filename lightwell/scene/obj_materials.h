@@ -13,14 +13,21 @@
 
 namespace lightwell {
 
+/// An image of a material: its file, empty for none, and where it lies.
+struct ObjTexture {
+  std::string file;
+  TexturePlacement placement;
+};
+
 /// What is read of a material of an MTL file: a tenth of what the library keeps of one, as files have a million.
 struct ObjMaterial {
   std::string name;
   Vec3f color{}, emission{};
   float opacity = 1;
-  std::string color_map, emission_map, opacity_map;  ///< names of files; empty: none
-  uint32_t unread = 0;                               ///< which visible properties are left out
-  uint32_t folder = 0;                               ///< of its MTL file
+  ObjTexture color_map, emission_map;
+  std::string opacity_map;  ///< name of a file; empty: none. It lies as the colour's.
+  uint32_t unread = 0;      ///< which visible properties are left out
+  uint32_t folder = 0;      ///< of its MTL file
 };
 
 /// Reads the MTL files that an OBJ file names, from the OBJ file's folder and below. Files that cannot be read cause a
@@ -41,7 +48,7 @@ class ObjMaterialReader : public tinyobj::MaterialReader {
   bool read(const std::string& name, std::map<std::string, int>& indices);
   void read_some(const std::string& text, std::map<std::string, int>& indices);
   std::string texture_uri(const std::string& name, const ObjMaterial& material) const;
-  Json texture(SceneBuilder& scene, const std::string& name, const ObjMaterial& material) const;
+  Json texture(SceneBuilder& scene, const ObjTexture& texture, const ObjMaterial& material) const;
   void add_opacity(SceneBuilder& scene, const ObjMaterial& material, Json& json) const;
 
   std::filesystem::path folder_;

@@ -180,7 +180,7 @@ Result<Document> ply_document(Bytes file, const std::filesystem::path& folder, c
     Json json = lambertian_json(material);
     if (textured) {
       const std::string& name = content.textures[static_cast<size_t>(part.texture)];
-      json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", scene.texture(as_uri(texture_file(name, stem)))}};
+      json["pbrMetallicRoughness"]["baseColorTexture"] = scene.texture(as_uri(texture_file(name, stem)));
     }
     parts.push_back({part.mesh, scene.material(std::move(json))});
   }

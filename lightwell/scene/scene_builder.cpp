@@ -47,16 +47,34 @@ int SceneBuilder::material(Json material) {
   return builder_.add("materials", std::move(material));
 }
 
-int SceneBuilder::texture(const std::string& uri) {
-  const auto [known, added] = textures_.try_emplace(uri, -1);
-  if (added) known->second = builder_.add("textures", {{"source", builder_.add("images", {{"uri", uri}})}});
-  return known->second;
+Json SceneBuilder::texture(const std::string& uri, const TexturePlacement& placement) {
+  const auto [known, added] = images_.try_emplace(uri, -1);
+  if (added) known->second = builder_.add("images", {{"uri", uri}});
+  return texture_of(known->second, placement);
 }
 
-int SceneBuilder::texture(const std::vector<uint8_t>& png) {
+Json SceneBuilder::texture(const std::vector<uint8_t>& png, const TexturePlacement& placement) {
   const int view = builder_.buffer_view(png);
-  return builder_.add("textures",
-                      {{"source", builder_.add("images", {{"bufferView", view}, {"mimeType", "image/png"}})}});
+  return texture_of(builder_.add("images", {{"bufferView", view}, {"mimeType", "image/png"}}), placement);
+}
+
+Json SceneBuilder::texture_of(int image, const TexturePlacement& placement) {
+  const auto [known, added] = textures_.try_emplace({image, placement.clamped}, -1);
+  if (added) {
+    constexpr int clamp_to_edge = 33071;
+    Json texture{{"source", image}};
+    if (placement.clamped)
+      texture["sampler"] = builder_.add("samplers", {{"wrapS", clamp_to_edge}, {"wrapT", clamp_to_edge}});
+    known->second = builder_.add("textures", std::move(texture));
+  }
+  Json used{{"index", known->second}};
+  const auto& [offset, scale, clamped] = placement;
+  if (offset == Vec2f{} && scale == Vec2f::filled(1)) return used;
+  use_extension("KHR_texture_transform");
+  // glTF's v points down.
+  used["extensions"]["KHR_texture_transform"] = {{"offset", {offset[0], 1 - scale[1] - offset[1]}},
+                                                 {"scale", {scale[0], scale[1]}}};
+  return used;
 }
 
 Json SceneBuilder::primitive(const Part& part) {

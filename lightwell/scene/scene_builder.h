@@ -23,6 +23,12 @@ Json lambertian_json(const Lambertian& material);
 /// A relative path as a URI: everything but letters, digits and a few signs becomes %XX, a backslash a slash.
 std::string as_uri(const std::string& path);
 
+/// Where an image lies on a surface: texture coordinates, v up as most formats have it, times `scale` plus `offset`.
+struct TexturePlacement {
+  Vec2f offset{}, scale = Vec2f::filled(1);
+  bool clamped = false;  ///< beyond the image its border goes on; otherwise it repeats
+};
+
 /// Builds a glTF document from meshes and materials, one node an object.
 class SceneBuilder {
  public:
@@ -38,10 +44,11 @@ class SceneBuilder {
   int material(const Lambertian& material) { return this->material(lambertian_json(material)); }
   /// A material as glTF has it; its extensions are added to the document's list.
   int material(Json material);
-  /// An image by its URI, relative to the document's folder, as a texture that repeats; one for all uses of the URI.
-  int texture(const std::string& uri);
-  /// A PNG file as a texture that repeats.
-  int texture(const std::vector<uint8_t>& png);
+  /// An image by its URI, relative to the document's folder, as a material refers to it; one image for all uses of the
+  /// URI.
+  Json texture(const std::string& uri, const TexturePlacement& placement = {});
+  /// The same of a PNG file.
+  Json texture(const std::vector<uint8_t>& png, const TexturePlacement& placement = {});
   /// A node with a mesh of these parts, whose positions are counted from `origin`.
   void object(const std::string& name, const std::vector<Part>& parts, const Vec3d& origin = {});
   /// The same in two steps, for a mesh whose parts are not all at hand at one time.
@@ -53,12 +60,14 @@ class SceneBuilder {
 
  private:
   void use_extension(const std::string& name);
+  Json texture_of(int image, const TexturePlacement& placement);
   void show();  // makes a scene, if there is none yet
   void node(Json node);
 
   Document document_;
   DocumentBuilder builder_{document_};
-  std::map<std::string, int> textures_;  // by URI
+  std::map<std::string, int> images_;             // by URI
+  std::map<std::pair<int, bool>, int> textures_;  // by image, and whether it is clamped
 };
 
 }  // namespace lightwell

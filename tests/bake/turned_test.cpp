@@ -32,13 +32,14 @@ std::vector<Face> faces(const Scene& scene) { return scene.primitives[0].mesh.fa
 
 TEST(Turned, IsARoomWhoseFacesLookOutwards) {
   Scene scene = scene_of(block(lo, hi), lambertian(0.7f));
-  scene.primitives[0].mesh.normals.assign(24, {{0, 1, 0}});
+  const std::vector<Vec3f> outwards = smooth_normals(scene.primitives[0].mesh);
+  scene.primitives[0].mesh.normals = outwards;
   add(scene, table(), lambertian(0.5f));
   add(scene, lamp(), lambertian(0, 10));
   const std::vector<Face> table_faces = scene.primitives[1].mesh.faces;
   const Ready turned = ready(scene);
   EXPECT_EQ(faces(scene), faces(scene_of(room(lo, hi), {})));
-  EXPECT_EQ(scene.primitives[0].mesh.normals[0], (Vec3f{{0, -1, 0}}));
+  EXPECT_EQ(scene.primitives[0].mesh.normals[0], -outwards[0]);
   EXPECT_EQ(scene.primitives[1].mesh.faces, table_faces);
   ASSERT_EQ(turned.warnings.size(), 1u);
   EXPECT_NE(turned.warnings[0].find("look away from the light"), std::string::npos);
@@ -134,6 +135,64 @@ TEST(Turned, AreFacesWoundAgainstTheRest) {
       EXPECT_NE(made.warnings[0].find("wound against those beside them"), std::string::npos);
       EXPECT_TRUE(ready(scene).warnings.empty());
     }
+}
+
+/// Of all vertices: how many normals point where the faces round them do.
+size_t normals_at_the_front(const Mesh& mesh) {
+  const std::vector<Vec3f> fronts = smooth_normals(mesh);
+  size_t count = 0;
+  for (size_t i = 0; i < fronts.size(); i++) count += dot(mesh.normals[i], fronts[i]) > 0;
+  return count;
+}
+
+// A ball in a lit room and under a sky: wound inwards or not, and with normals that point inwards or not.
+TEST(Turned, NormalsPointWhereTheFacesDo) {
+  for (const bool sky : {false, true})
+    for (const bool faces_wrong : {false, true})
+      for (const bool normals_wrong : {false, true}) {
+        const Mesh right = turned(sphere(0.8f, 3));
+        Scene scene = scene_of(right, lambertian(0.6f));
+        Mesh& ball = scene.primitives[0].mesh;
+        ball.normals = smooth_normals(right);
+        if (faces_wrong) ball = turned(ball);
+        for (size_t i = 0; i < ball.normals.size(); i++)
+          ball.normals[i] = smooth_normals(right)[i] * (normals_wrong ? -1.0f : 1.0f);
+        for (Vec3f& position : ball.positions) position[1] += 1.2f;
+        if (sky) {
+          scene.environment.radiance = Vec3f::filled(1);
+        } else {
+          add(scene, room(lo, hi), lambertian(0.7f));
+          add(scene, lamp(), lambertian(0, 10));
+        }
+        const Ready made = ready(scene);
+        const Mesh& found = scene.primitives[0].mesh;
+        EXPECT_EQ(normals_at_the_front(found), found.positions.size()) << sky << faces_wrong << normals_wrong;
+        // Under a sky a shell that looks inwards is a wall without a back.
+        EXPECT_TRUE(sky || found.faces == right.faces) << faces_wrong << normals_wrong;
+        EXPECT_EQ(made.warnings.empty(), sky ? faces_wrong == normals_wrong : !faces_wrong && !normals_wrong);
+        EXPECT_TRUE(ready(scene).warnings.empty());
+      }
+}
+
+// Leaves whose normals are those of the crown: half of them point to a card's back, on purpose.
+TEST(Turned, NormalsOfACrownStay) {
+  Scene scene;
+  scene.environment.radiance = Vec3f::filled(1);
+  Mesh leaves;
+  Random random(3, 0);
+  for (uint32_t i = 0; i < 40; i++) {
+    const Vec3f place = sample_sphere(random);
+    const Vec3f u = sample_sphere(random) * 0.1f, v = sample_sphere(random) * 0.1f;
+    for (const Vec3f& corner : {place, place + u, place + v}) {
+      leaves.positions.push_back(corner);
+      leaves.normals.push_back(place);
+    }
+    leaves.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  add(scene, leaves, lambertian(0.5f));
+  scene.materials.back().double_sided = true;
+  EXPECT_TRUE(ready(scene).warnings.empty());
+  EXPECT_EQ(scene.primitives[0].mesh.normals, leaves.normals);
 }
 
 }  // namespace

@@ -98,6 +98,10 @@ TEST_F(Commands, AdaptiveGridsKeepToBudgetTargetAndTime) {
   const json small = figures(" --target-error 0 --budget 12k");
   EXPECT_EQ(small["refined_to"], "budget");
   EXPECT_LE(small["bytes"]["light"], 12'000);
+  // A few bytes a block were not counted once: they show where there are many.
+  const json large = figures(" --target-error 0 --budget 128k");
+  EXPECT_EQ(large["refined_to"], "budget");
+  EXPECT_LE(large["bytes"]["light"], 128 * 1024);
   EXPECT_EQ(figures(" --target-error 60 --budget 12k")["refined_to"], "target error");
   EXPECT_EQ(figures(" --target-error 0 --stop-after 0 --budget 12k")["refined_to"], "time");
   EXPECT_FALSE(figures(" --grid 6").contains("refined_to"));
@@ -323,30 +327,48 @@ TEST_F(Commands, AnInterruptedBakeLeavesNothing) {
 }
 
 // Two lamps in a closed room: with one of them switched off a pack gives the other's light alone, direct and bounced.
-TEST_F(Commands, GroupsOfLightAreSwitched) {
-  write("lamps.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,
-    "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","color":[1,0,0],"intensity":100},
-                                                   {"type":"point","color":[0,0,1],"intensity":100}]}},
-    "scenes":[{"nodes":[0,1,2]}],
-    "nodes":[{"mesh":0},
-      {"name":"Red.001","translation":[1,2,1],"extensions":{"KHR_lights_punctual":{"light":0}}},
-      {"name":"Blue.001","translation":[3,2,3],"extensions":{"KHR_lights_punctual":{"light":1}}}],
-    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
-    "buffers":[{"uri":"room.bin","byteLength":132}],
-    "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36}],
+/// A room of 4 m, seen from inside, `nodes` are more of them, each on a line of its own after a comma.
+std::string room_gltf(const std::string& lights, const std::string& nodes, const std::string& more_meshes = "") {
+  const size_t count = static_cast<size_t>(std::count(nodes.begin(), nodes.end(), '\n'));
+  std::string list = "0";
+  for (size_t i = 1; i <= count; i++) list.append(",").append(std::to_string(i));
+  return R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,
+    "extensions":{"KHR_lights_punctual":{"lights":[)" +
+         lights + R"(]}},"scenes":[{"nodes":[)" + list + R"(]}],"nodes":[{"mesh":0})" + nodes + R"(],
+    "meshes":[{"name":"room","primitives":[{"attributes":{"POSITION":0},"indices":1}]})" +
+         more_meshes + R"(],
+    "buffers":[{"uri":"room.bin","byteLength":168}],
+    "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36},
+                   {"buffer":0,"byteOffset":132,"byteLength":36}],
     "accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[0,0,0],"max":[4,4,4]},
-                 {"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}]})");
+                 {"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"},
+                 {"bufferView":2,"componentType":5121,"count":36,"type":"SCALAR"}]})";
+}
+
+/// Its buffer: the corners of a cube, its faces seen from inside, and from outside.
+std::string room_bin() {
   std::string bin;
   for (int corner = 0; corner < 8; corner++)
     for (int axis = 0; axis < 3; axis++) {
       const float x = corner >> axis & 1 ? 4 : 0;
       bin.append(reinterpret_cast<const char*>(&x), 4);
     }
-  for (const char index :
-       {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
-    bin += index;
-  for (size_t i = 96; i < bin.size(); i += 3) std::swap(bin[i], bin[i + 1]);  // seen from inside
-  write("room.bin", bin);
+  const std::string outside{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                            2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  std::string inside = outside;
+  for (size_t i = 0; i < inside.size(); i += 3) std::swap(inside[i], inside[i + 1]);
+  return bin + inside + outside;
+}
+
+TEST_F(Commands, GroupsOfLightAreSwitched) {
+  std::string gltf = room_gltf(R"({"type":"point","color":[1,0,0],"intensity":100},
+                                  {"type":"point","color":[0,0,1],"intensity":100})",
+                               R"(,
+      {"name":"Red.001","translation":[1,2,1],"extensions":{"KHR_lights_punctual":{"light":0}}},
+      {"name":"Blue.001","translation":[3,2,3],"extensions":{"KHR_lights_punctual":{"light":1}}})");
+  write("lamps.gltf", gltf);
+  write("one_group.gltf", gltf.replace(gltf.find("Blue.001"), 8, "Red.0002"));
+  write("room.bin", room_bin());
   const std::string points = "x,y,z,nx,ny,nz\n2,1,2,0,1,0\n0.5,2,0.5,1,0,0\n";
   const std::string pack = path("groups.lw.glb"), options = " --photons 50k --grid 6 --quiet";
   ASSERT_EQ(run("bake " + path("lamps.gltf") + " --groups name -o " + pack + options).status, 0);
@@ -362,11 +384,58 @@ TEST_F(Commands, GroupsOfLightAreSwitched) {
     }
     EXPECT_GT(all[2], 0);
   }
+  const std::string one = path("one_group.lw.glb");
+  ASSERT_EQ(run("bake " + path("one_group.gltf") + " --groups name -o " + one + options).status, 0);
+  EXPECT_EQ(run("verify " + one).status, 0);
+  for (const std::string ivg : {"", " --integrator ivg"})
+    for (const double value : probed(one + " --light-group Red=0" + ivg, points)) EXPECT_EQ(value, 0) << ivg;
   EXPECT_EQ(run("probe " + pack + " --points " + path("points.csv") + " --light-group Green=1").err,
             "lightwell: " + pack + ": --light-group Green: is no group of the scene's light: Red, Blue\n");
   EXPECT_EQ(run("probe " + path("lamps.gltf") + " --points " + path("points.csv") + " --light-group Red=1").err,
             "lightwell: " + path("lamps.gltf") +
                 ": --light-group Red: the scene's light has no groups: bake it with --groups\n");
+}
+
+// A closed room and a sun: there is nothing to estimate an error of, and the reason is said.
+TEST_F(Commands, ASunThatMeetsOnlyOutsidesIsSaid) {
+  write("room.bin", room_bin());
+  for (const bool two_sided : {false, true}) {
+    std::string gltf = room_gltf(R"({"type":"directional","intensity":3})", R"(,
+      {"rotation":[-0.7071,0,0,0.7071],"extensions":{"KHR_lights_punctual":{"light":0}}})");
+    if (two_sided) {
+      gltf.insert(gltf.find("\"indices\":1"), "\"material\":0,");
+      gltf.insert(gltf.find("\"buffers\""), "\"materials\":[{\"doubleSided\":true}],");
+    }
+    write("dark.gltf", gltf);
+    const Outcome outcome = run("bake " + path("dark.gltf") + " -o " + path("dark.lw.glb") + " --grid 4 --photons 20k");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.err.find("black; the sun meets only outsides: the rooms have no opening"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(outcome.out.find("estimated error"), std::string::npos) << outcome.out;
+    const std::string json_options = " --grid 4 --photons 20k --quiet --json";
+    EXPECT_TRUE(
+        json::parse(
+            run("bake " + path("dark.gltf") + " -o " + path("dark.lw.glb") + json_options).out)["estimated_error"]
+            .is_null());
+  }
+}
+
+// A lamp in a closed cupboard: whatever becomes of the cupboard's faces, both are named.
+TEST_F(Commands, ALampInACupboardIsNamed) {
+  write("room.bin", room_bin());
+  for (const std::string size : {"0.15", "0.25", "0.4"}) {
+    write("cupboard.gltf",
+          room_gltf(R"({"type":"point","intensity":100})",
+                    R"(,
+      {"mesh":1,"translation":[1,0.01,1],"scale":[)" +
+                        size + "," + size + "," + size + R"(]},
+      {"name":"lost","translation":[1.2,0.21,1.2],"extensions":{"KHR_lights_punctual":{"light":0}}})",
+                    R"(,{"name":"cupboard","primitives":[{"attributes":{"POSITION":0},"indices":2}]})"));
+    const Outcome outcome =
+        run("bake " + path("cupboard.gltf") + " -o " + path("cupboard.lw.glb") + " --grid 4 --photons 20k --quiet");
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.err.find("lamp \"lost\" stands inside of \"cupboard\""), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace

@@ -125,6 +125,12 @@ test('the settings have a slider for each group', async (t) => {
     return lamps.filter(({ color }) => color.b > 0).length;
   });
   assert.equal(blue, 0);
+  await page.getByLabel('Colour of Red').fill('#808080');
+  const red = await page.evaluate(() => {
+    const { lamps } = document.querySelector('lightwell-view').pack;
+    return Math.max(...lamps.map(({ color }) => color.r));
+  });
+  assert.ok(Math.abs(red - 0.216) < 0.001, `${red}: half of the code in sRGB is 0.216 of the light`);
 });
 
 test('the sky’s own light is dimmed apart from what surfaces reflect', async (t) => {
@@ -132,12 +138,20 @@ test('the sky’s own light is dimmed apart from what surfaces reflect', async (
   const { page, errors } = await forTest(t, openPage(browser, { width: 160, height: 120 }));
   await page.goto(server.url);
   await complete(page);
-  const brightness = (factor) =>
-    page.evaluate(async (of) => {
+  await page.evaluate(() => (document.querySelector('#panel').open = true));
+  await page.getByText('Settings').click();
+  const slider = page.getByLabel('The sky’s own light', { exact: true });
+  await slider.waitFor();
+  const brightness = async (factor) => {
+    const { width } = await slider.boundingBox();
+    assert.ok(width > 40, `the slider is ${width} pixels wide`);
+    return page.evaluate(async (of) => {
       const view = document.querySelector('lightwell-view');
       view.setAttribute('tone', 'none');
       const { texture } = view.pack.grids[0];
-      view.pack.setSkyLight(of);
+      const input = [...document.querySelectorAll('#groups input')].find(({ type }) => type === 'range');
+      input.value = of;
+      input.dispatchEvent(new Event('input'));
       while (view.pack.grids[0].texture === texture) await new Promise(requestAnimationFrame);
       view.draw();
       const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
@@ -145,6 +159,7 @@ test('the sky’s own light is dimmed apart from what surfaces reflect', async (
       gl.readPixels(gl.drawingBufferWidth / 2, gl.drawingBufferHeight / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
       return pixel[1];
     }, factor);
+  };
   const [all, half, none] = [await brightness(1), await brightness(0.5), await brightness(0)];
   assert.ok(all > half && half > none, `${all}, ${half}, ${none}`);
   assert.ok(none < all / 4, 'a ball by itself reflects next to nothing onto itself');

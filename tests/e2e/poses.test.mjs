@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands far away, is bent by a skin or a morph target, or is hidden looks on the page as in `lightwell render`.
+// What stands far away, is bent by a skin or a morph target, is hidden or unlit looks on the page as in `lightwell render`: one by one,
+// and all at once.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -73,6 +74,26 @@ const SCENES = {
   'a hidden node': (gltf) => {
     gltf.extensionsUsed.push('KHR_node_visibility');
     gltf.nodes[1].extensions = { KHR_node_visibility: { visible: false } };
+  },
+  'an unlit ball': (gltf) => {
+    gltf.extensionsUsed.push('KHR_materials_unlit');
+    const unlit = { pbrMetallicRoughness: { baseColorFactor: [0.2, 0.4, 0.8, 1] }, extensions: { KHR_materials_unlit: {} } };
+    gltf.meshes[1].primitives[0].material = gltf.materials.push(unlit) - 1;
+  },
+  'a scene of all of these': (gltf) => {
+    const [attributes] = gltf.meshes[1].primitives.map((primitive) => primitive.attributes);
+    const ball = (material, at) => {
+      const mesh = gltf.meshes.push({ primitives: [{ ...gltf.meshes[1].primitives[0], attributes: { ...attributes }, material }] }) - 1;
+      const node = gltf.nodes.push({ mesh, translation: at, scale: [0.6, 0.6, 0.6] }) - 1;
+      gltf.scenes[0].nodes.push(node);
+      return gltf.nodes[node];
+    };
+    const unlit = { pbrMetallicRoughness: { baseColorFactor: [0.9, 0.7, 0.1, 1] }, extensions: { KHR_materials_unlit: {} } };
+    gltf.extensionsUsed.push('KHR_materials_unlit', 'KHR_node_visibility');
+    ball(gltf.materials.push(unlit) - 1, [0.5, -0.6, 0]);
+    ball(gltf.meshes[0].primitives[0].material, [0.1, 0.2, -0.2]).extensions = { KHR_node_visibility: { visible: false } };
+    SCENES['a skin in its pose'](gltf);
+    SCENES['a scene far away'](gltf);
   },
 };
 

@@ -19,6 +19,7 @@ GridDescription any_grid(Random& random) {
   grid.codec = random.below(256);
   grid.normal_offset = 2 * random.uniform() - 1;
   grid.estimated_error = random.uniform();
+  grid.estimate = {.surface = random.uniform(), .free = random.uniform()};
   grid.priority = static_cast<int>(random.below(10));
   grid.contains = {random.below(2) == 1, random.below(2) == 1, random.below(2) == 1,
                    random.below(2) == 1 ? "sky" : std::string()};

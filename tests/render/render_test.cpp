@@ -184,6 +184,31 @@ TEST(Render, ShowsWhatIsUnlitAsItIs) {
   for (size_t i = 0; i < picture.pixels.size(); i++)
     ASSERT_NEAR(picture.pixels[i], (std::array{0.2f, 0.4f, 0.9f}[i % 3]), 1e-5f);
   EXPECT_EQ(mean(take(*world, camera, small(LightPart::indirect))), 0);
+  // However the picture is exposed, its bytes are those of the colour.
+  for (const float exposure : {-5.0f, 0.0f, 4.0f})
+    for (const ToneCurve tone : {ToneCurve::none, ToneCurve::neutral}) {
+      RenderOptions options = small(LightPart::total);
+      options.display = {.exposure = exposure, .tone = tone};
+      const Image image = displayed(take(*world, camera, options), options.display);
+      // Linear 0.2, 0.4 and 0.9 in sRGB; rounding may move a byte by one.
+      for (size_t i = 0; i < image.pixels.size(); i++)
+        ASSERT_NEAR(image.pixels[i], (std::array{124, 170, 243}[i % 3]), 1);
+    }
+}
+
+// The tone curve and its inverse, for all but bright saturated colours, which no light is shown as.
+TEST(Picture, ColoursAreShownAsTheyAreByTheRadianceThatIsFoundForThem) {
+  Random random(7, 0);
+  for (int i = 0; i < 10'000; i++) {
+    const float grey = random.uniform(), spread = grey < 0.7f ? 1.0f : 0.1f;
+    Vec3f colour;
+    for (float& channel : colour.e)
+      channel = std::clamp(grey + spread * (random.uniform() - 0.5f), 0.0f, grey < 0.7f ? 0.75f : 0.99f);
+    const Display display{.exposure = 6 * random.uniform() - 3, .tone = ToneCurve::neutral};
+    const Vec3f shown = display(display.radiance_of(colour));
+    for (int c = 0; c < 3; c++)
+      ASSERT_NEAR(shown[c], colour[c], 2e-4f) << colour[0] << " " << colour[1] << " " << colour[2];
+  }
 }
 
 }  // namespace

@@ -111,6 +111,25 @@ TEST_F(ObjTest, ReadsKeywordsOfAMaterialInAnyCaseAndEitherSlash) {
             "newmtl a_b\nKd 1 0 0\nmap_Kd ./sub/a.png\nmap_Kd -o 1 1 b.png\nPm 1\n");
 }
 
+// Options of a map are no part of its name: the image lies where they put it.
+TEST_F(ObjTest, PutsImagesWhereTheirOptionsSay) {
+  write("tex.png", write_png(Image{1, 2, 3, {255, 0, 0, 0, 0, 255}}));
+  write("all.mtl", as_bytes("newmtl a\nmap_Kd -o 0.5 -7 0 -s 1 10 1 -clamp on tex.png\nnewmtl b\nmap_Kd tex.png\n"));
+  const Scene scene =
+      read_well("mtllib all.mtl\nvt 0.25 0.75\n" + square + "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 3/1 4/1\n");
+  EXPECT_EQ(scene.images.size(), 1u);
+  for (const Material& material : scene.materials) {
+    const TextureLookup& texture = material.base_color_texture;
+    if (texture.image < 0) continue;
+    const bool placed = material.name == "a";
+    EXPECT_EQ(texture.wrap_u, placed ? TextureLookup::Wrap::clamp : TextureLookup::Wrap::repeat);
+    // u: 0.25 + 0.5; v, counted from below: 10 * 0.75 - 7.
+    const Vec3f corner{{0.25f, 1 - 0.75f, 1}};
+    EXPECT_NEAR(dot(Vec3f{texture.row_u}, corner), placed ? 0.75f : 0.25f, 1e-6f);
+    EXPECT_NEAR(1 - dot(Vec3f{texture.row_v}, corner), placed ? 0.5f : 0.75f, 1e-5f);
+  }
+}
+
 // Materials that share an image share its texture, and what of them is not read is named once.
 TEST_F(ObjTest, SharesImagesAndNamesWhatItLeavesOut) {
   write("wood.png", write_png(Image{1, 1, 3, {10, 20, 30}}));

@@ -2,7 +2,7 @@
 //
 // A pack in a <lightwell-view> whose materials reflect evenly in all directions and do not shine, as `lightwell render` shows them
 // by one part of the light: `?light=` names it as the element does.
-import { Mesh, MeshLambertMaterial, type MeshStandardMaterial } from 'three';
+import { Mesh, MeshLambertMaterial, MeshStandardMaterial } from 'three';
 import '../../../web/src/element/index.js';
 import type { LightwellView } from '../../../web/src/element/lightwell_view.js';
 
@@ -15,6 +15,6 @@ document.body.innerHTML = `<lightwell-view src="pack.lw.glb" tone="none" light="
 const view = document.querySelector<LightwellView>('lightwell-view')!;
 view.on('load', () =>
   view.pack!.traverse((object) => {
-    if (object instanceof Mesh) object.material = lambert(object.material as MeshStandardMaterial);
+    if (object instanceof Mesh && object.material instanceof MeshStandardMaterial) object.material = lambert(object.material);
   }),
 );

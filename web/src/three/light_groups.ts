@@ -46,6 +46,10 @@ export class LightGroups {
     return [...this.#factors.keys()].filter((name) => name !== '' && name !== SKY);
   }
 
+  get skyIsApart(): boolean {
+    return this.#factors.has(SKY);
+  }
+
   /** The grids that are looked up, and their states. */
   get definitions(): LightGridDefinition[] {
     return this.#sums.map(({ definition }) => definition);
@@ -81,7 +85,7 @@ export class LightGroups {
 
   /** Sets the factor of the sky's own light. Throws when it is not apart. */
   setSky(factor: number | Factor): void {
-    if (!this.#factors.has(SKY)) throw new Error("the sky's own light is not apart from the rest in this pack");
+    if (!this.skyIsApart) throw new Error("the sky's own light is not apart from the rest in this pack");
     this.#factors.set(SKY, factorOf('sky', factor));
   }
 

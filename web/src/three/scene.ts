@@ -180,6 +180,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     return this.#groups?.names ?? [];
   }
 
+  /** Whether the sky's own light may be changed apart from the rest: see `setSkyLight`. */
+  get skyIsApart(): boolean {
+    return this.#groups?.skyIsApart ?? false;
+  }
+
   /** Multiplies all light of a group of lamps, bounced or not, for each colour; 0 switches it off. Throws when there is none of the name. */
   setLightGroup(name: string, factor: number | [number, number, number]): void {
     const groups = this.#groups;
@@ -419,6 +424,8 @@ function prepareMeshes(root: Group, ambientOcclusion: boolean): void {
     mesh.castShadow = mesh.receiveShadow = true;
     for (const material of materialsOf(mesh) as (Material & { aoMapIntensity?: number })[]) {
       material.shadowSide = DoubleSide;
+      // What is unlit looks as its file has it, however the rest is exposed.
+      if ('isMeshBasicMaterial' in material) material.toneMapped = false;
       if (!ambientOcclusion && material.aoMapIntensity !== undefined) material.aoMapIntensity = 0;
     }
   }
