@@ -171,9 +171,12 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.add(direct.hook, direct.carrier, ...direct.lamps);
   }
 
-  /** How lamps cast shadows: from all of their surface, from their middle, or not at all. */
-  setShadows(shadows: Shadows): void {
-    this.#direct?.setShadows(shadows);
+  /**
+   * How lamps cast shadows: from all of their surface, from their middle, or not at all. Making them softer takes so many milliseconds of
+   * the GPU's time in a frame; 4 when it is left out.
+   */
+  setShadows(shadows: Shadows, milliseconds?: number): void {
+    this.#direct?.setShadows(shadows, milliseconds);
   }
 
   /** From how many points of each lamp the shadows in the picture are, at least; Infinity once there are as many as there will be. */

@@ -22,7 +22,7 @@ const POINTS_OF_POINT = 32;
 /** A visitor who saves data saves power, too. */
 const SAVING = 4;
 /** A picture is shown when every lamp has had so many points, and each time that they have doubled. */
-const FIRST_SHOWN = 8;
+const FIRST_SHOWN = 16;
 /** Of the GPU's time in a frame, milliseconds. */
 const BUDGET = 4;
 /** Sides of the maps, in texels: of a cube's faces, and of a sun's picture. */
@@ -117,8 +117,10 @@ export class DirectLight {
     return open.length === 0 ? Infinity : Math.max(0, Math.min(...open.map(({ count }) => count)));
   }
 
-  setShadows(kind: Shadows): void {
+  /** `milliseconds`: of the GPU's time in a frame that samples may take. */
+  setShadows(kind: Shadows, milliseconds = BUDGET): void {
     this.#kind = kind;
+    this.#task.milliseconds = milliseconds;
     this.restart();
   }
 
