@@ -33,7 +33,7 @@ vec3 unpackNormal( vec2 packed ) {
 
 vec3 positionOf( float distance ) {
 
-	vec2 at = 2.0 * gl_FragCoord.xy / vec2( textureSize( sums, 0 ) ) - 1.0;
+	vec2 at = 2.0 * gl_FragCoord.xy / vec2( textureSize( surfaces, 0 ) ) - 1.0;
 	float w = projection[ 3 ][ 3 ] - projection[ 2 ][ 3 ] * distance;
 	vec2 xy = at * w + vec2( projection[ 2 ].xy ) * distance - projection[ 3 ].xy;
 	return vec3( xy / vec2( projection[ 0 ][ 0 ], projection[ 1 ][ 1 ] ), - distance );

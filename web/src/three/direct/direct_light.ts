@@ -8,7 +8,7 @@ import { aside } from './aside.js';
 import { letLampsThrough } from './casters.js';
 import { three, useKit } from './kit.js';
 import { createLamp, formOf, type Lamp, type PlacedLamp, placed, texelsOf } from './lamp.js';
-import { pointOf } from './lamp_points.js';
+import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
 import { ScreenShares } from './screen_shares.js';
 import { ShadowMap } from './shadow_map.js';
@@ -194,7 +194,7 @@ export class DirectLight {
       const form = placed(shadow.lamp);
       const now = formOf(form);
       if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
-        this.#drawMap(shadow.middle, form, 0);
+        this.#drawMap(shadow.middle, form, middleOf(form));
         this.#mapsTime = performance.now();
         Object.assign(shadow, { form: now, count: -1 });
       }
@@ -205,7 +205,8 @@ export class DirectLight {
     }
     if (this.#showStale) this.#shares.show(renderer);
     this.#showStale = false;
-    if (!this.#takesTurns(camera, moved) && this.samples < Infinity) this.#task.request();
+    if (this.#takesTurns(camera, moved)) this.#task.cancel();
+    else if (this.samples < Infinity) this.#task.request();
   }
 
   /** Whether two cameras draw one after the other, for ever: a picture that a refinement asked for would undo it. */
@@ -217,8 +218,7 @@ export class DirectLight {
     return turns;
   }
 
-  #drawMap(map: ShadowMap, form: PlacedLamp, index: number): void {
-    const point = pointOf(form, index);
+  #drawMap(map: ShadowMap, form: PlacedLamp, point: LampPoint): void {
     map.draw(this.#surfaces, this.#root!, form, point, this.#sphere(this.#surroundings.bounds), this.#sphere(this.#surroundings.focus));
   }
 
@@ -263,7 +263,8 @@ export class DirectLight {
     const sun = shadow.middle.sun;
     const map = this.#scratch.get(sun) ?? new ShadowMap(sun, sun ? SUN_SIZE : CUBE_SIZE);
     this.#scratch.set(sun, map);
-    this.#drawMap(map, placed(shadow.lamp), shadow.count + 1);
+    const form = placed(shadow.lamp);
+    this.#drawMap(map, form, pointOf(form, shadow.count));
     this.#shares.add(renderer, this.#shadows.indexOf(shadow), map, shadow.count === 0, false);
     shadow.count++;
   }
