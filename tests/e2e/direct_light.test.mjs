@@ -141,16 +141,20 @@ async function pictureOf(page, file) {
 /** Difference in CIEDE2000 between pictures in files. */
 const differenceOf = (a, b) => JSON.parse(execFileSync(`${BIN}/lightwell`, ['diff', a, b, '--metric', 'deltae', '--json', '--quiet'], { encoding: 'utf8' }));
 
+/** CIEDE2000; 1 is just visible. With 512 samples of `render` 0.51 and 1.97, of which most is in the edges of facets smaller than a pixel. */
+const MEAN = 0.7;
+const P95 = 2.5;
+
 test('at rest a room with a lamp looks as in lightwell render; then nothing is drawn any more', async (t) => {
   const pack = bake('box-small', `${folder}/box.lw.glb`);
   const { page, errors } = await openPack(t, pack);
   await pictureOf(page, `${folder}/page.png`);
-  const picture = ['--only', 'direct', '--tone', 'none', '--size', '320x180', '--spp', '512', '--quiet'];
+  const picture = ['--only', 'direct', '--tone', 'none', '--size', '320x180', '--spp', '256', '--quiet'];
   execFileSync(`${BIN}/lightwell`, ['render', pack, '-o', `${folder}/render.png`, ...picture]);
   const { mean, p95 } = differenceOf(`${folder}/page.png`, `${folder}/render.png`);
   t.diagnostic(`mean ${mean.toFixed(2)}, 95th percentile ${p95.toFixed(2)}`);
-  assert.ok(mean <= 0.6 && p95 <= 2.2, `mean ${mean}, 95th percentile ${p95}`);
-  const drawn = () => page.evaluate(() => document.querySelector('lightwell-view').renderer?.info.render.frame ?? globalThis.frames);
+  assert.ok(mean <= MEAN && p95 <= P95, `mean ${mean}, 95th percentile ${p95}`);
+  const drawn = () => page.evaluate(() => globalThis.frames);
   await page.evaluate(() => {
     globalThis.frames = 0;
     document.querySelector('lightwell-view').addEventListener('frame', () => globalThis.frames++);
@@ -174,35 +178,43 @@ function roomWithGroups() {
   return bake(file, `${folder}/groups.lw.glb`, { groups: 'name' });
 }
 
-test('a lamp is switched without a new sample, and a pack of half the size looks as before', async (t) => {
+test('a lamp is switched, dimmed and coloured without a new sample', async (t) => {
   const { page, errors } = await openPack(t, roomWithGroups());
   const left = await page.evaluate(() => {
     const view = document.querySelector('lightwell-view');
-    const samples = [];
-    for (const factor of [0, 2, 1]) {
+    const seen = [];
+    for (const factor of [0, [0, 2, 0], 1]) {
       view.setLightGroup('Left', factor);
       view.draw();
-      samples.push(view.pack.shadowSamples);
+      seen.push(view.pack.shadowSamples);
     }
-    return samples;
+    return seen;
   });
   assert.deepEqual(left, [Infinity, Infinity, Infinity]);
-  await pictureOf(page, `${folder}/whole.png`);
-  await page.evaluate(() => {
-    const { pack, camera } = document.querySelector('lightwell-view');
-    pack.scale.setScalar(0.5);
-    camera.position.multiplyScalar(0.5);
-    camera.near *= 0.5;
-    camera.updateProjectionMatrix();
-    pack.updateMatrixWorld(true);
-    // The element's own controls would put the camera back.
-    const view = document.querySelector('lightwell-view');
-    view.view = { ...view.view, radius: view.view.radius * 0.5, target: view.view.target.map((x) => x * 0.5) };
-    view.draw();
-  });
-  await settled(page);
-  await pictureOf(page, `${folder}/half.png`);
-  const { mean, p95 } = differenceOf(`${folder}/whole.png`, `${folder}/half.png`);
-  assert.ok(mean <= 0.3 && p95 <= 1, `mean ${mean}, 95th percentile ${p95}`);
+  assert.deepEqual(errors, []);
+});
+
+const POINT = { kind: 'point', center: [0, 2, 0], normal: [0, -1, 0], intensity: [1, 1, 1], range: 5 };
+const SPOT = { ...POINT, kind: 'spot', innerConeAngle: 0.1, outerConeAngle: 0.5 };
+
+test('lamps follow the scale of their pack, shadows and all', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.scaled);
+  for (const lamp of [RECTANGLE, SPHERE, POINT, SPOT].map((definition) => ({ ...definition, center: [0, 2, 0] }))) {
+    const [whole, half] = await page.evaluate((of) => [scaled(of, 1), scaled(of, 0.5)], lamp);
+    assert.ok(Math.max(...whole) > 0.05, `${lamp.kind}: ${whole}`);
+    // The range of a lamp's map is the scene's, so that depths are rounded otherwise at an edge.
+    const off = whole.filter((value, i) => Math.abs(value - half[i]) > 0.01 * Math.max(...whole));
+    assert.ok(off.length <= 1, `${lamp.kind}: ${whole} became ${half}`);
+  }
+  assert.deepEqual(errors, []);
+});
+
+test('an object of the user’s own casts a shadow, which goes where it goes', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.ownObject);
+  const [without, below, aside] = await page.evaluate((of) => ownObject(of), POINT);
+  assert.ok(without > 0.1, `${without}`);
+  assert.deepEqual([below, aside], [0, without]);
   assert.deepEqual(errors, []);
 });

@@ -117,4 +117,33 @@ export function fromBehind(definition: LampDefinition): number[] {
   });
 }
 
-Object.assign(globalThis, { irradiance, penumbra, fromBehind });
+/** A row of the floor below a lamp and the half-plane, all of it so many times as large. */
+export function scaled(definition: LampDefinition, factor: number): number[] {
+  const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
+  const { direct, scene } = light([definition], objects);
+  const camera = rowCamera(0.48);
+  const world = new Group().add(...scene.children, camera);
+  world.scale.setScalar(factor);
+  camera.scale.setScalar(1 / factor);
+  for (const side of ['left', 'right', 'top', 'bottom', 'far'] as const) camera[side] *= factor;
+  camera.updateProjectionMatrix();
+  const row = rowOf(new Scene().add(world), camera, 32);
+  direct.dispose();
+  return row;
+}
+
+/** The floor below a lamp, and once an object of the user's own is over it, and where that has gone aside. */
+export function ownObject(definition: LampDefinition): number[] {
+  const { direct, scene } = light([definition], [surface(10, 10, [0, 0, 0], [0, 1, 0])]);
+  const middle = () => rowOf(scene, rowCamera(0.1), 8)[4]!;
+  const own = surface(1, 1, [0, 0.95, 0], [0, 1, 0]);
+  const values = [middle()];
+  scene.add(own);
+  values.push(middle());
+  own.position.x = 5;
+  values.push(middle());
+  direct.dispose();
+  return values;
+}
+
+Object.assign(globalThis, { scaled, ownObject, irradiance, penumbra, fromBehind });
