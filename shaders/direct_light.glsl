@@ -4,14 +4,14 @@
 // no intensity, known by its decay, whose map is a table of all lamps with the share of each that reaches every pixel
 // (docs/decisions/033-direct-light-on-the-page.md). A material calls getLamp for each of them and adds it by its own RE_Direct.
 //
-// Texels of the map, row 0: number of lamps, whether there are shares, 0, 0; the viewport: x, y, width, height; then five a lamp, in
-// the camera's space:
+// Texels of the map, row 0: number of lamps, whether there are shares, their width and height; the viewport: x, y, width, height; then
+// five a lamp, in the camera's space:
 //   position (of a sun: where its light comes from), kind
 //   colour: radiance, or intensity; range, 0 without end
 //   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
 //   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
 //   normal; number of its share
-// Above row 0 the viewport: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
+// Above row 0 the shares, one for every pixel of the viewport or for a few: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
 // beyond six beside it, again and again.
 
 #if NUM_SPOT_LIGHT_MAPS > 0
@@ -48,9 +48,10 @@ Lamp readLamp( sampler2D map, int i ) {
 // outlines, where a multisampled pixel has fragments of two surfaces.
 ivec2 getPlaceOfShares( sampler2D map, float distance ) {
 
+	vec2 size = texelFetch( map, ivec2( 0 ), 0 ).zw;
 	vec4 viewport = texelFetch( map, ivec2( 1, 0 ), 0 );
-	ivec2 last = ivec2( viewport.zw ) - 1;
-	ivec2 pixel = clamp( ivec2( floor( gl_FragCoord.xy - viewport.xy ) ), ivec2( 0 ), last );
+	ivec2 last = ivec2( size ) - 1;
+	ivec2 pixel = clamp( ivec2( floor( ( gl_FragCoord.xy - viewport.xy ) * size / viewport.zw ) ), ivec2( 0 ), last );
 	ivec2 best = pixel;
 	float least = abs( texelFetch( map, pixel + ivec2( 0, 1 ), 0 ).r - distance );
 	if ( least < 0.002 * distance ) return best;
@@ -69,7 +70,7 @@ ivec2 getPlaceOfShares( sampler2D map, float distance ) {
 // How much of a lamp reaches the fragment, 0 to 1.
 float getShareOfLamp( sampler2D map, ivec2 place, int share ) {
 
-	int width = int( texelFetch( map, ivec2( 1, 0 ), 0 ).z );
+	int width = int( texelFetch( map, ivec2( 0 ), 0 ).z );
 	vec4 texel = texelFetch( map, place + ivec2( share / 6 * width, 1 ), 0 );
 	float two = texel[ 1 + share % 6 / 2 ];
 	float first = floor( two / 4096.0 );

@@ -237,13 +237,15 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     return new Promise((resolve) => (this.#resolveLinks = resolve));
   }
 
-  /** Asks for no more until `resume`. */
+  /** Asks for no more until `resume`, and makes shadows no softer. */
   pause(): void {
     this.#connection.pause();
+    this.#direct?.pause();
   }
 
   resume(): void {
     this.#connection.resume();
+    this.#direct?.resume();
   }
 
   /** Lets what matters most to this camera's picture come first. Call it when the view has changed much, not each frame. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Box3, Mesh, Object3D } from 'three';
+import type { Box3, Mesh, Object3D, Vector3 } from 'three';
 import type { LampDefinition } from '../extensions.js';
 import type { Opening } from '../opening.js';
 import { three } from './kit.js';
@@ -17,7 +17,7 @@ export function letLampsThrough(definitions: LampDefinition[], opening: Opening,
 }
 
 /** Whether a mesh stands right round a lamp and is small. */
-function isBulb(object: Object3D, lamp: import('three').Vector3, focus: Box3): boolean {
+function isBulb(object: Object3D, lamp: Vector3, focus: Box3): boolean {
   if (!(object as Mesh).isMesh) return false;
   const box = new three.Box3().setFromObject(object);
   const longest = (of: Box3) => Math.max(...of.getSize(new three.Vector3()).toArray());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Box3, Camera, DataTexture, Mesh, Object3D, Sphere, SpotLight, WebGLRenderer } from 'three';
+import type { Box3, BufferGeometry, Camera, DataTexture, Mesh, MeshBasicMaterial, Object3D, Sphere, SpotLight, Vector3, WebGLRenderer } from 'three';
 import type { DirectKit } from '../direct_kit.js';
 import type { LampDefinition } from '../extensions.js';
 import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
@@ -63,7 +63,7 @@ export class DirectLight {
   /** Stands for all lamps: three.js gives its map to every material that is lit. */
   readonly carrier: SpotLight;
   /** Is drawn first, and shows nothing. */
-  readonly hook: Mesh;
+  readonly hook: Mesh<BufferGeometry, MeshBasicMaterial>;
   readonly #surroundings: Surroundings;
   readonly #surfaces: Surfaces;
   readonly #shares: ScreenShares;
@@ -82,6 +82,7 @@ export class DirectLight {
   /** The two views before, to tell cameras that take turns. */
   #views: string[] = [];
   #drawing = false;
+  #paused = false;
   #batch = 1;
 
   constructor(kit: DirectKit, definitions: LampDefinition[], surroundings: Surroundings) {
@@ -124,6 +125,17 @@ export class DirectLight {
     this.restart();
   }
 
+  /** Takes no sample until `resume`. */
+  pause(): void {
+    this.#paused = true;
+    this.#task.cancel();
+  }
+
+  resume(): void {
+    this.#paused = false;
+    if (this.#root !== null && this.samples < Infinity) this.#task.request();
+  }
+
   /** The pack's meshes have more faces: what is seen is seen anew with the next picture, what casts shadows after a while. */
   grow(): void {
     this.#seenStale = true;
@@ -145,8 +157,8 @@ export class DirectLight {
     this.#task.dispose();
     for (const { middle } of this.#shadows) middle.dispose();
     for (const map of this.#scratch.values()) map.dispose();
-    for (const part of [this.#surfaces, this.#shares, this.#table, this.carrier, this.hook.geometry]) part.dispose();
-    (this.hook.material as { dispose(): void } & object).dispose();
+    const { geometry, material } = this.hook;
+    for (const part of [this.#surfaces, this.#shares, this.#table, this.carrier, geometry, material]) part.dispose();
   }
 
   #shining(): Shadow[] {
@@ -183,7 +195,10 @@ export class DirectLight {
     const { renderer } = this.#surroundings;
     const root = (this.#root = topOf(this.hook));
     const signature = signatureOf(root);
-    if (signature !== this.#signature) for (const shadow of this.#shadows) shadow.form = null;
+    if (signature !== this.#signature) {
+      for (const shadow of this.#shadows) shadow.form = null;
+      this.#seenStale = true;
+    }
     this.#signature = signature;
     if (moved || this.#seenStale) {
       this.#shares.drawSurfaces(this.#surfaces, root, camera);
@@ -206,7 +221,7 @@ export class DirectLight {
     if (this.#showStale) this.#shares.show(renderer);
     this.#showStale = false;
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
-    else if (this.samples < Infinity) this.#task.request();
+    else if (!this.#paused && this.samples < Infinity) this.#task.request();
   }
 
   /** Whether two cameras draw one after the other, for ever: a picture that a refinement asked for would undo it. */
@@ -229,12 +244,12 @@ export class DirectLight {
   #writeTable(camera: Camera, shining: Shadow[], shadowed: boolean): void {
     const view = camera.matrixWorldInverse;
     const space = {
-      point: (of: import('three').Vector3) => of.clone().applyMatrix4(view),
-      direction: (of: import('three').Vector3) => of.clone().applyMatrix4(view).sub(new three.Vector3().setFromMatrixPosition(view)),
+      point: (of: Vector3) => of.clone().applyMatrix4(view),
+      direction: (of: Vector3) => of.clone().applyMatrix4(view).sub(new three.Vector3().setFromMatrixPosition(view)),
     };
     const texels = shining.flatMap((shadow) => texelsOf(placed(shadow.lamp), space, this.#shadows.indexOf(shadow)));
     const data = this.#table.image.data as Float32Array;
-    data.set([shining.length, Number(shadowed), 0, 0, ...this.#shares.viewport.toArray(), ...texels]);
+    data.set([shining.length, Number(shadowed), this.#shares.width, this.#shares.height, ...this.#shares.viewport.toArray(), ...texels]);
     this.#table.needsUpdate = true;
   }
 
@@ -242,7 +257,7 @@ export class DirectLight {
   #refine(): void {
     const { renderer, scheduler, changed } = this.#surroundings;
     const least = () => Math.min(...this.#shining().map((shadow) => (shadow.count < this.#enough(shadow) ? shadow.count : Infinity)));
-    if (this.#growing !== undefined || this.#shining().some(({ count }) => count < 0)) return;
+    if (this.#paused || this.#growing !== undefined || this.#shining().some(({ count }) => count < 0)) return;
     const before = least();
     const started = performance.now();
     const batch = this.#batch;

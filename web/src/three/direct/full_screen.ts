@@ -22,7 +22,7 @@ export class FullScreen {
   }
 
   draw(renderer: WebGLRenderer, target: WebGLRenderTarget, values: Record<string, unknown>): void {
-    for (const [name, value] of Object.entries(values)) this.material.uniforms[name] = { value };
+    for (const [name, value] of Object.entries(values)) this.material.uniforms[name]!.value = value;
     this.material.uniformsNeedUpdate = true;
     renderer.setRenderTarget(target);
     renderer.render(this.#scene, this.#camera);

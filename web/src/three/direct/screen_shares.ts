@@ -8,10 +8,13 @@ import type { ShadowMap } from './shadow_map.js';
 import type { Surfaces } from './surfaces.js';
 
 const SUMS = 6;
+/** That the sums may take, in bytes: of many lamps in a large picture they are coarser than its pixels. */
+const MOST_BYTES = 96 * 2 ** 20;
+const BYTES_OF_A_SUM = 8;
 const COPY = 'precision highp float;uniform highp sampler2D table;out vec4 result;void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}';
 
 /**
- * For every pixel of a view, which share of each lamp reaches it: the ratio of two sums over points of the lamp, which are kept apart for
+ * For every pixel of a view, or every few of them, which share of each lamp reaches it: the ratio of two sums over points of the lamp, which are kept apart for
  * each lamp. `picture` is what materials read (shaders/direct_light.glsl).
  */
 export class ScreenShares {
@@ -45,8 +48,17 @@ export class ScreenShares {
     this.#table = new FullScreen(COPY, { table: { value: null } });
   }
 
+  /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
   get viewport(): Vector4 {
     return this.#viewport;
+  }
+
+  get width(): number {
+    return this.#surfaces.width;
+  }
+
+  get height(): number {
+    return this.#surfaces.height;
   }
 
   /** Takes the view of a camera into the renderer's present viewport; says whether it is another than before. */
@@ -58,7 +70,9 @@ export class ScreenShares {
     this.#place.copy(camera.matrixWorld);
     this.#view.copy(camera.matrixWorldInverse);
     this.#projection.copy(camera.projectionMatrix);
-    const { z: width, w: height } = viewport;
+    const bytes = BYTES_OF_A_SUM * viewport.z * viewport.w * (this.#sums.length + 1);
+    const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / bytes));
+    const [width, height] = [viewport.z, viewport.w].map((pixels) => Math.max(1, Math.floor(pixels * sharpness))) as [number, number];
     for (const target of [this.#surfaces, this.#spare, ...this.#sums]) target.setSize(width, height);
     this.picture.setSize(Math.max(this.tableWidth, Math.ceil(this.#sums.length / SUMS) * width), height + 1);
     return true;
@@ -94,7 +108,7 @@ export class ScreenShares {
 
   /** Shows the shares as they are now. */
   show(renderer: WebGLRenderer): void {
-    const { z: width, w: height } = this.#viewport;
+    const { width, height } = this;
     for (let layer = 0; layer * SUMS < this.#sums.length; layer++) {
       const sums = Array.from({ length: SUMS }, (_, i): Texture => (this.#sums[layer * SUMS + i] ?? this.#spare).texture);
       this.#part(layer * width, 1, width, height);

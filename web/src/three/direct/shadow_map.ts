@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { DepthTexture, Object3D, Sphere, Vector3, WebGLRenderTarget } from 'three';
+import type { Camera, DepthTexture, Object3D, Sphere, Vector3, WebGLRenderTarget } from 'three';
 import { three } from './kit.js';
 import type { PlacedLamp } from './lamp.js';
 import type { LampPoint } from './lamp_points.js';
 import type { Surfaces } from './surfaces.js';
+
+/** Draws what casts shadows, as a camera sees it. */
+type Render = (camera: Camera) => void;
 
 /** Which of a cube's faces have light of a lamp: a rectangle has none behind it, a narrow spot all before it. */
 const ALL_FACES = [0, 1, 2, 3, 4, 5];
@@ -50,7 +53,7 @@ export class ShadowMap {
     this.depths.dispose();
   }
 
-  #drawCube(surfaces: Surfaces, placed: PlacedLamp, bounds: Sphere, focus: Sphere, render: (camera: import('three').Camera) => void): void {
+  #drawCube(surfaces: Surfaces, placed: PlacedLamp, bounds: Sphere, focus: Sphere, render: Render): void {
     const { point, size } = this;
     this.range = [0.001 * focus.radius, point.position.distanceTo(bounds.center) + bounds.radius];
     const camera = new three.PerspectiveCamera(90, 1, ...this.range);
@@ -63,7 +66,7 @@ export class ShadowMap {
     }
   }
 
-  #drawSun(surfaces: Surfaces, focus: Sphere, render: (camera: import('three').Camera) => void): void {
+  #drawSun(surfaces: Surfaces, focus: Sphere, render: Render): void {
     const [right, up, front] = this.point.axes;
     const { radius, center } = focus;
     this.range = [radius, 2 * radius];
@@ -80,7 +83,7 @@ export class ShadowMap {
     renderer.setRenderTarget(this.#target);
   }
 
-  #aim(camera: import('three').Camera, right: Vector3, up: Vector3, back: Vector3, place: Vector3): void {
+  #aim(camera: Camera, right: Vector3, up: Vector3, back: Vector3, place: Vector3): void {
     camera.matrixWorldAutoUpdate = false;
     camera.matrixWorld.makeBasis(right, up, back).setPosition(place);
     camera.matrixWorldInverse.copy(camera.matrixWorld).invert();

@@ -84,7 +84,7 @@ export class Surfaces {
   }
 }
 
-/** A number that changes when anything that casts shadows moves, changes its form, comes or goes. */
+/** A number that changes when a surface moves, changes its form, comes or goes. */
 export function signatureOf(root: Object3D): number {
   let sum = 0;
   let weight = 1;
@@ -93,10 +93,10 @@ export function signatureOf(root: Object3D): number {
   };
   root.traverseVisible((object) => {
     const mesh = object as Mesh;
-    if (!mesh.isMesh || !mesh.castShadow) return;
-    const { geometry, matrixWorld, morphTargetInfluences } = mesh;
+    if (!mesh.isMesh) return;
+    const { geometry, matrixWorld, morphTargetInfluences, castShadow } = mesh;
     add(matrixWorld.elements);
-    add([geometry.id, geometry.drawRange.start, Math.min(geometry.drawRange.count, 1e9)]);
+    add([geometry.id, Number(castShadow)]);
     if (morphTargetInfluences !== undefined) add(morphTargetInfluences);
     const { skeleton, instanceMatrix } = object as Partial<SkinnedMesh> & Partial<InstancedMesh>;
     if (skeleton?.boneMatrices) add(skeleton.boneMatrices);
