@@ -40,7 +40,8 @@ Lamp readLamp( sampler2D map, int i ) {
 
 	vec4 texels[ 5 ];
 	for ( int k = 0; k < 5; k ++ ) texels[ k ] = texelFetch( map, ivec2( 2 + 5 * i + k, 0 ), 0 );
-	return Lamp( texels[ 0 ].xyz, int( texels[ 0 ].w ), texels[ 1 ].rgb, texels[ 1 ].w, texels[ 2 ].xyz, texels[ 2 ].w, texels[ 3 ].xyz, texels[ 3 ].w, texels[ 4 ].xyz, int( texels[ 4 ].w ) );
+	int kind = int( texels[ 0 ].w ), share = int( texels[ 4 ].w );
+	return Lamp( texels[ 0 ].xyz, kind, texels[ 1 ].rgb, texels[ 1 ].w, texels[ 2 ].xyz, texels[ 2 ].w, texels[ 3 ].xyz, texels[ 3 ].w, texels[ 4 ].xyz, share );
 
 }
 
@@ -158,7 +159,12 @@ float getLamp( Lamp lamp, vec3 position, vec3 normal, out IncidentLight light ) 
 
 	}
 	if ( lamp.kind != LAMP_SUN ) light.color *= getLampAttenuation( squared, lamp.range );
-	if ( lamp.kind == LAMP_SPOT ) light.color *= pow2( saturate( ( - dot( light.direction, lamp.normal ) - lamp.outer ) / max( 1e-3, lamp.inner - lamp.outer ) ) );
+	if ( lamp.kind == LAMP_SPOT ) {
+
+		float cosine = - dot( light.direction, lamp.normal );
+		light.color *= pow2( saturate( ( cosine - lamp.outer ) / max( 1e-3, lamp.inner - lamp.outer ) ) );
+
+	}
 	return 0.0;
 
 }

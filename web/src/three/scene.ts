@@ -155,7 +155,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     }
     const scene = new LightwellScene(opening, images, grids, groups, connection, renderer, options);
     const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
-    if (lamps.length > 0) scene.#shine(new (await import('./direct/direct_light.js')).DirectLight(DIRECT_KIT, lamps, scene.#surroundings()));
+    if (lamps.length > 0) {
+      const { DirectLight } = await import('./direct/direct_light.js');
+      scene.#shine(new DirectLight(DIRECT_KIT, lamps, scene.#surroundings()));
+    }
     return scene;
   }
 

@@ -1,5 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Box3, BufferGeometry, Camera, DataTexture, Mesh, MeshBasicMaterial, Object3D, Sphere, SpotLight, Vector3, WebGLRenderer } from 'three';
+import type {
+  Box3,
+  BufferGeometry,
+  Camera,
+  DataTexture,
+  Mesh,
+  MeshBasicMaterial,
+  Object3D,
+  Sphere,
+  SpotLight,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
 import type { DirectKit } from '../direct_kit.js';
 import type { LampDefinition } from '../extensions.js';
 import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
@@ -162,7 +174,8 @@ export class DirectLight {
   }
 
   #shining(): Shadow[] {
-    return this.#shadows.filter(({ lamp: { visible, intensity, color } }) => visible && intensity * Math.max(color.r, color.g, color.b) > 0);
+    const shines = ({ visible, intensity, color }: Lamp) => visible && intensity * Math.max(color.r, color.g, color.b) > 0;
+    return this.#shadows.filter(({ lamp }) => shines(lamp));
   }
 
   #enough({ lamp: { definition } }: Shadow): number {
@@ -234,7 +247,8 @@ export class DirectLight {
   }
 
   #drawMap(map: ShadowMap, form: PlacedLamp, point: LampPoint): void {
-    map.draw(this.#surfaces, this.#root!, form, point, this.#sphere(this.#surroundings.bounds), this.#sphere(this.#surroundings.focus));
+    const { bounds, focus } = this.#surroundings;
+    map.draw(this.#surfaces, this.#root!, form, point, this.#sphere(bounds), this.#sphere(focus));
   }
 
   #sphere(box: Box3): Sphere {
@@ -249,14 +263,16 @@ export class DirectLight {
     };
     const texels = shining.flatMap((shadow) => texelsOf(placed(shadow.lamp), space, this.#shadows.indexOf(shadow)));
     const data = this.#table.image.data as Float32Array;
-    data.set([shining.length, Number(shadowed), this.#shares.width, this.#shares.height, ...this.#shares.viewport.toArray(), ...texels]);
+    const { width, height, viewport } = this.#shares;
+    data.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...texels]);
     this.#table.needsUpdate = true;
   }
 
   /** Adds samples of the lamps that have fewest. */
   #refine(): void {
     const { renderer, scheduler, changed } = this.#surroundings;
-    const least = () => Math.min(...this.#shining().map((shadow) => (shadow.count < this.#enough(shadow) ? shadow.count : Infinity)));
+    const countOf = (shadow: Shadow) => (shadow.count < this.#enough(shadow) ? shadow.count : Infinity);
+    const least = () => Math.min(...this.#shining().map(countOf));
     if (this.#paused || this.#growing !== undefined || this.#shining().some(({ count }) => count < 0)) return;
     const before = least();
     const started = performance.now();

@@ -56,13 +56,19 @@ export function placed(lamp: Lamp): PlacedLamp {
   };
 }
 
+/** From the world into a camera's space. */
+export interface CameraSpace {
+  point(of: Vector3): Vector3;
+  direction(of: Vector3): Vector3;
+}
+
 /** Numbers that change when a lamp is moved: its shadows do, too. */
 export function formOf({ position, u, v, normal, radius }: PlacedLamp): number[] {
   return [position, u, v, normal].flatMap((vector) => vector.toArray()).concat(radius);
 }
 
 /** The five texels of a lamp in the table of shaders/direct_light.glsl. */
-export function texelsOf(placed: PlacedLamp, view: { direction(of: Vector3): Vector3; point(of: Vector3): Vector3 }, share: number): number[] {
+export function texelsOf(placed: PlacedLamp, view: CameraSpace, share: number): number[] {
   const { lamp, kind, scale, normal } = placed;
   const { definition } = lamp;
   const { innerConeAngle = 0, outerConeAngle = Math.PI / 4, range = 0, twoSided } = definition;

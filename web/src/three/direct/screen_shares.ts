@@ -11,11 +11,12 @@ const SUMS = 6;
 /** That the sums may take, in bytes: of many lamps in a large picture they are coarser than its pixels. */
 const MOST_BYTES = 96 * 2 ** 20;
 const BYTES_OF_A_SUM = 8;
-const COPY = 'precision highp float;uniform highp sampler2D table;out vec4 result;void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}';
+const COPY = `precision highp float;uniform highp sampler2D table;out vec4 result;
+void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
 
 /**
- * For every pixel of a view, or every few of them, which share of each lamp reaches it: the ratio of two sums over points of the lamp, which are kept apart for
- * each lamp. `picture` is what materials read (shaders/direct_light.glsl).
+ * For every pixel of a view, or every few of them, which share of each lamp reaches it: the ratio of two sums over points of the lamp,
+ * which are kept apart for each lamp. `picture` is what materials read (shaders/direct_light.glsl).
  */
 export class ScreenShares {
   readonly picture: WebGLRenderTarget;
@@ -64,8 +65,8 @@ export class ScreenShares {
   /** Takes the view of a camera into the renderer's present viewport; says whether it is another than before. */
   see(renderer: WebGLRenderer, camera: Camera): boolean {
     const viewport = renderer.getCurrentViewport(new three.Vector4());
-    const same = viewport.equals(this.#viewport) && camera.matrixWorld.equals(this.#place) && camera.projectionMatrix.equals(this.#projection);
-    if (same) return false;
+    const sameCamera = camera.matrixWorld.equals(this.#place) && camera.projectionMatrix.equals(this.#projection);
+    if (sameCamera && viewport.equals(this.#viewport)) return false;
     this.#viewport.copy(viewport);
     this.#place.copy(camera.matrixWorld);
     this.#view.copy(camera.matrixWorldInverse);

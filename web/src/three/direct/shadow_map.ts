@@ -45,7 +45,10 @@ export class ShadowMap {
   /** `bounds`: of all that casts shadows, in the world; `focus`: of what a sun's picture shows, and what all is measured by. */
   draw(surfaces: Surfaces, root: Object3D, placed: PlacedLamp, point: LampPoint, bounds: Sphere, focus: Sphere): void {
     this.point = point;
-    surfaces.draw(root, 'casters', (render) => (this.sun ? this.#drawSun(surfaces, focus, render) : this.#drawCube(surfaces, placed, bounds, focus, render)));
+    surfaces.draw(root, 'casters', (render) => {
+      if (this.sun) this.#drawSun(surfaces, focus, render);
+      else this.#drawCube(surfaces, placed, bounds, focus, render);
+    });
   }
 
   dispose(): void {

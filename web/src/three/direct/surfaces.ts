@@ -31,7 +31,9 @@ export class Surfaces {
       const mesh = object as Mesh;
       if (mesh.material === undefined) return;
       before.push([mesh, mesh.material, mesh.onBeforeRender]);
-      mesh.material = Array.isArray(mesh.material) ? mesh.material.map((of) => this.#materialOf(mesh, of, part)) : this.#materialOf(mesh, mesh.material, part);
+      const { material } = mesh;
+      const own = (of: Material) => this.#materialOf(mesh, of, part);
+      mesh.material = Array.isArray(material) ? material.map(own) : own(material);
       mesh.onBeforeRender = NOTHING;
     });
     this.#scene.children = root.children;
