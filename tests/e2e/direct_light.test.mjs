@@ -56,6 +56,7 @@ function partsOfSphere(center, radius, steps = 400) {
 
 const unit = (a) => a.map((x) => x / length(a));
 const RECTANGLE = { kind: 'rectangle', center: [0, 1, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.3], radiance: [1, 1, 1] };
+const SUN = { kind: 'sun', normal: [0, -1, 0], intensity: [1, 1, 1] };
 const SPHERE = { kind: 'sphere', center: [0, 1, 0], radius: 0.4, radiance: [1, 1, 1] };
 /** Of the sums above, and of floats in a shader; the aim is half a percent. */
 const EXACT = 2e-3;
@@ -78,8 +79,8 @@ test('a rectangle and a sphere give the irradiance of their whole surface, above
   assert.equal(await measured(RECTANGLE, [0, 1.5, 0], [0, -1, 0]), 0, 'behind a rectangle');
   const above = await measured({ ...RECTANGLE, twoSided: true }, [0, 2, 0], [0, -1, 0]);
   assert.ok(Math.abs(above - (await measured(RECTANGLE, [0, 0, 0], [0, 1, 0]))) < EXACT * above, 'both sides are alike');
-  const sun = await measured({ kind: 'sun', normal: [0, -1, 0], intensity: [3, 3, 3] }, [0, 0, 0], unit([0, 1, 1]));
-  assert.ok(Math.abs(sun - 3 * Math.SQRT1_2) < EXACT * sun, `a sun: ${sun}`);
+  const sun = await measured(SUN, [0, 0, 0], unit([0, 1, 1]));
+  assert.ok(Math.abs(sun - Math.SQRT1_2) < EXACT * sun, `a sun: ${sun}`);
   assert.deepEqual(errors, []);
 });
 
@@ -92,6 +93,20 @@ function shareBehindEdge(x) {
 
 /** The largest errors, root mean square over the penumbra and in its mean, of shadows from so many points of a lamp. */
 const PENUMBRA = { 64: [0.05, 0.01], 256: [0.02, 0.005] };
+
+/** A sun stays where it is from sample to sample: its shadow has an edge, as wide as a texel of its map or a pixel. */
+const EDGE = 0.02;
+
+test('the shadow of a sun has a sharp edge', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.penumbra);
+  const { shares } = await page.evaluate((values) => penumbra(...values), [SUN, 0.48, 32]);
+  shares.forEach((share, i) => {
+    const x = -0.48 + (0.96 * (i + 0.5)) / shares.length;
+    if (Math.abs(x) > EDGE) assert.ok(Math.abs(share - Number(x > 0)) < 1e-3, `${share} at ${x}`);
+  });
+  assert.deepEqual(errors, []);
+});
 
 test('the penumbra of a square lamp behind an edge is that of the closed form', async (t) => {
   const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
@@ -213,8 +228,10 @@ test('lamps follow the scale of their pack, shadows and all', async (t) => {
 test('an object of the user’s own casts a shadow, which goes where it goes', async (t) => {
   const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.ownObject);
-  const [without, below, aside] = await page.evaluate((of) => ownObject(of), POINT);
-  assert.ok(without > 0.1, `${without}`);
-  assert.deepEqual([below, aside], [0, without]);
+  for (const lamp of [POINT, SPOT, SUN]) {
+    const [without, below, aside] = await page.evaluate((of) => ownObject(of), lamp);
+    assert.ok(without > 0.1, `${lamp.kind}: ${without}`);
+    assert.deepEqual([below, aside], [0, without], lamp.kind);
+  }
   assert.deepEqual(errors, []);
 });
