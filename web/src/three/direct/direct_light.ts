@@ -4,9 +4,9 @@ import type {
   BufferGeometry,
   Camera,
   DataTexture,
-  Mesh,
-  MeshBasicMaterial,
   Object3D,
+  Points,
+  PointsMaterial,
   Sphere,
   SpotLight,
   Vector3,
@@ -74,8 +74,8 @@ export class DirectLight {
   readonly lamps: Lamp[];
   /** Stands for all lamps: three.js gives its map to every material that is lit. */
   readonly carrier: SpotLight;
-  /** Is drawn first, and shows nothing. */
-  readonly hook: Mesh<BufferGeometry, MeshBasicMaterial>;
+  /** Is drawn first, and shows nothing. No mesh, so that who looks for the pack's meshes finds those alone. */
+  readonly hook: Points<BufferGeometry, PointsMaterial>;
   readonly #surroundings: Surroundings;
   readonly #surfaces: Surfaces;
   readonly #shares: ScreenShares;
@@ -116,7 +116,8 @@ export class DirectLight {
     });
     this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
     this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table;
-    this.hook = new three.Mesh(new three.BufferGeometry(), new three.MeshBasicMaterial({ colorWrite: false, depthWrite: false }));
+    this.hook = new three.Points(new three.BufferGeometry(), new three.PointsMaterial({ colorWrite: false, depthWrite: false }));
+    this.hook.raycast = () => {};
     this.hook.geometry.boundingSphere = new three.Sphere();
     this.hook.frustumCulled = false;
     this.hook.renderOrder = -Infinity;
