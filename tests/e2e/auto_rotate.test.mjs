@@ -17,7 +17,8 @@ const STILL = 1e-9;
 
 const PACK = bakeBall(temporaryFolder());
 const browser = await forAllTests(launch());
-const openBall = (t, options) => open(t, browser, PACK, { attributes: 'camera-controls auto-rotate', ...options });
+/** Shadows that grow softer would ask for frames, too. */
+const openBall = (t, options) => open(t, browser, PACK, { attributes: 'camera-controls auto-rotate shadows="hard"', ...options });
 
 const turns = (page, from) => page.waitForFunction((theta) => view.view.theta > theta + 0.01, from);
 

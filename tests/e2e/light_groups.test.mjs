@@ -52,6 +52,8 @@ async function open(t, kind) {
   await complete(opened.page);
   await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('tone', 'none'));
   await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('exposure', '0'));
+  // Pictures are compared: shadows are to stay as they are.
+  await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('shadows', 'hard'));
   return opened;
 }
 

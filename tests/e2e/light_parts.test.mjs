@@ -58,6 +58,8 @@ async function openBalls(t) {
   const opened = await forTest(t, openPage(browser));
   await opened.page.goto(server.url);
   await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('tone', 'none'));
+  // Pictures are compared: shadows are to stay as they are.
+  await opened.page.evaluate(() => document.querySelector('lightwell-view').setAttribute('shadows', 'hard'));
   await complete(opened.page);
   await opened.page.waitForTimeout(LAST_SHADOWS);
   return opened;

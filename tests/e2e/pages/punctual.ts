@@ -4,9 +4,10 @@
 import {
   Box3,
   FloatType,
-  type Light,
+  Group,
   Mesh,
   MeshLambertMaterial,
+  type Object3D,
   OrthographicCamera,
   PlaneGeometry,
   PointLight,
@@ -16,15 +17,18 @@ import {
   WebGLRenderer,
   WebGLRenderTarget,
 } from 'three';
+import { DirectLight } from '../../../web/src/three/direct/direct_light.js';
+import { DIRECT_KIT } from '../../../web/src/three/direct_kit.js';
 import type { LampDefinition } from '../../../web/src/three/extensions.js';
-import { createLamps } from '../../../web/src/three/lamps.js';
+import { FrameScheduler } from '../../../web/src/three/frame_scheduler.js';
+import type { Opening } from '../../../web/src/three/opening.js';
 
 const renderer = new WebGLRenderer();
 const target = new WebGLRenderTarget(1, 1, { type: FloatType });
 const bounds = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
 
 /** Of a light at the origin that looks along -z, at a distance and an angle from there, on a wall that faces it; times pi / albedo. */
-function irradiance(lights: Light[], distance: number, angle: number): number {
+function irradiance(lights: Object3D[], distance: number, angle: number): number {
   const place = new Vector3(Math.sin(angle), 0, -Math.cos(angle)).multiplyScalar(distance);
   const wall = new Mesh(new PlaneGeometry(0.001, 0.001), new MeshLambertMaterial());
   wall.position.copy(place);
@@ -43,7 +47,12 @@ function irradiance(lights: Light[], distance: number, angle: number): number {
 /** Of a pack's lamp, described as in LIGHTWELL_lamps, whose intensity is 1 W/sr. */
 export function ofLamp(definition: Partial<LampDefinition>, distance: number, angle = 0): number {
   const lamp = { kind: 'point', center: [0, 0, 0], normal: [0, 0, -1], intensity: [1, 1, 1], ...definition } as LampDefinition;
-  return irradiance(createLamps([lamp], bounds, 0), distance, angle);
+  const opening = { gltf: { scene: new Group() }, meshesOf: () => [] } as unknown as Opening;
+  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, changed: () => {} };
+  const direct = new DirectLight(DIRECT_KIT, [lamp], surroundings);
+  const measured = irradiance([direct.hook, direct.carrier, ...direct.lamps], distance, angle);
+  direct.dispose();
+  return measured;
 }
 
 /** Of a point light of three.js's own. */

@@ -13,6 +13,7 @@ export interface LightwellViewAttributes {
   exposure?: number | string;
   light?: 'all' | 'off' | 'direct' | 'indirect';
   'light-lookup'?: 'trilinear' | 'tricubic';
+  shadows?: 'soft' | 'hard' | 'off';
   tone?: 'neutral' | 'none';
   strategy?: 'interleave' | 'geometry' | 'light';
   wireframe?: boolean | '';
@@ -31,6 +32,7 @@ export const DRAWN_ATTRIBUTES = [
   'field-of-view',
   'exposure',
   'light',
+  'shadows',
   'tone',
   'strategy',
   'wireframe',
@@ -41,6 +43,7 @@ export const DRAWN_ATTRIBUTES = [
 ];
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;
+export const SHADOWS = ['soft', 'hard', 'off'] as const;
 export const STRATEGIES = ['interleave', 'geometry', 'light'] as const;
 export const TONES = ['neutral', 'none'] as const;
 

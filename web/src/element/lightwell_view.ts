@@ -4,7 +4,7 @@ import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
 import type { LightwellScene } from '../three/scene.js';
-import { DRAWN_ATTRIBUTES, LIGHTS, LOOKUPS, parseQuantity, parseView, parseWord, STRATEGIES, TONES } from './attributes.js';
+import { DRAWN_ATTRIBUTES, LIGHTS, LOOKUPS, parseQuantity, parseView, parseWord, SHADOWS, STRATEGIES, TONES } from './attributes.js';
 import { type ContextHolder, dropContext, serveContexts, wantContext } from './contexts.js';
 import type { LightwellViewDetails, Listens } from './events.js';
 import { cameraNamed, cameraNames } from './file_cameras.js';
@@ -32,8 +32,8 @@ const KIT = { DirectionalLight, parseQuantity, parseView };
  * Attributes: `src`, `poster` (a picture until the first frame), `loading` ("auto" and "eager" at once, "lazy" when it comes
  * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
- * default the pack's), `light` ("all", "off", "direct", "indirect"), `tone` ("neutral", "none"), `strategy` ("interleave",
- * "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`, `any-three`, `max-image-megapixels`.
+ * default the pack's), `light` ("all", "off", "direct", "indirect"), `shadows` ("soft", "hard", "off"), `tone` ("neutral", "none"), `strategy`
+ * ("interleave", "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`, `any-three`, `max-image-megapixels`.
  *
  * Events: `load` when the scene is there, `firstframe`, `frame` after each, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).
@@ -309,7 +309,7 @@ export class LightwellView extends Base implements ContextHolder {
     stage.scene.add(pack);
     this.#pauseOrResume();
     for (const [name, factor] of this.#factors) if (pack.lightGroups.includes(name)) pack.setLightGroup(name, factor);
-    for (const name of ['field-of-view', 'exposure', 'light', 'wireframe']) this.#apply(name);
+    for (const name of ['field-of-view', 'exposure', 'light', 'shadows', 'wireframe']) this.#apply(name);
     this.#frame(pack);
     stage.invalidateShadows();
     this.#emit('load', null);
@@ -356,6 +356,8 @@ export class LightwellView extends Base implements ContextHolder {
         return stage.setExposure(parseQuantity(value ?? '') ?? this.#pack?.exposure ?? 0);
       case 'light':
         return this.#setLight(parseWord(value, LIGHTS));
+      case 'shadows':
+        return this.#pack?.setShadows(parseWord(value, SHADOWS));
       case 'tone':
         return stage.setTone(parseWord(value, TONES));
       case 'strategy':

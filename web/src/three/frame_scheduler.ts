@@ -90,17 +90,16 @@ export class FrameScheduler {
 export class FrameTask {
   readonly #scheduler: FrameScheduler;
   readonly #work: (frame: Frame) => void;
-  readonly #milliseconds: number;
   #wanted = false;
   #urgent = false;
   /** When the last run ended here, and how long the GPU took for it from then on: endless until it is done. */
   #ended = -Infinity;
   #duration = 0;
 
-  constructor(scheduler: FrameScheduler, work: (frame: Frame) => void, milliseconds: number) {
+  /** `milliseconds`: of the GPU's time in a frame, at most. */
+  constructor(scheduler: FrameScheduler, work: (frame: Frame) => void, public milliseconds: number) {
     this.#scheduler = scheduler;
     this.#work = work;
-    this.#milliseconds = milliseconds;
   }
 
   get wanted(): boolean {
@@ -109,7 +108,7 @@ export class FrameTask {
 
   /** Whether it is wanted and, unless that is urgent, has rested: its runs take their share of the frames since the last one. */
   get due(): boolean {
-    const rested = performance.now() >= this.#ended + (this.#duration * FRAME) / this.#milliseconds;
+    const rested = performance.now() >= this.#ended + (this.#duration * FRAME) / this.milliseconds;
     return this.#wanted && (this.#urgent || rested);
   }
 
@@ -134,7 +133,7 @@ export class FrameTask {
   run(frame = new Frame()): void {
     this.cancel();
     this.#work(frame);
-    if (this.#milliseconds === Infinity) return;
+    if (this.milliseconds === Infinity) return;
     const ended = (this.#ended = performance.now());
     this.#duration = Infinity;
     this.#scheduler.whenDone(() => {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Packs in three.js.
+export type { Shadows } from './direct/direct_light.js';
+export type { Lamp } from './direct/lamp.js';
 export { Frame, FrameScheduler, FrameTask } from './frame_scheduler.js';
 export { LightwellLight, type LightLookup } from './light.js';
 export { PackError } from './pack_error.js';

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Color, Material } from 'three';
 import type { LightEvent } from '../core/protocol.js';
+import type { Lamp } from './direct/lamp.js';
 import type { LampDefinition, LightGridDefinition } from './extensions.js';
 import { halfValues, toHalf } from './half.js';
-import type { Lamp } from './lamps.js';
 import type { Opening } from './opening.js';
 import type { AssetWeight } from './view_weights.js';
 

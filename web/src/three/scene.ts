@@ -3,13 +3,10 @@ import {
   Box3,
   type BufferGeometry,
   type Camera,
-  DirectionalLight,
   DoubleSide,
   Group,
   type Material,
-  type Mesh,
   type Object3DEventMap,
-  SpotLight,
   Vector3,
   type WebGLRenderer,
 } from 'three';
@@ -25,6 +22,9 @@ import {
   type UpdateEvent,
   payload,
 } from '../core/protocol.js';
+import type { DirectLight, Shadows } from './direct/direct_light.js';
+import type { Lamp } from './direct/lamp.js';
+import { DIRECT_KIT } from './direct_kit.js';
 import { disposeAll } from './dispose.js';
 import { assetOf } from './extensions.js';
 import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
@@ -32,9 +32,8 @@ import { HandOver } from './hand_over.js';
 import { LightwellLight, type LightLookup } from './light.js';
 import type { LightGroups } from './light_groups.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
-import { createLamps, type Lamp, scaleLamps } from './lamps.js';
 import { MeshRefinement } from './mesh_refinement.js';
-import { mapsOf, materialsOf, meshesIn } from './meshes.js';
+import { materialsOf, meshesIn } from './meshes.js';
 import type { Opening } from './opening.js';
 import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
@@ -68,9 +67,6 @@ export interface SceneOptions {
 /** As the baker has it. The memory for an image is taken before it comes, on the word of the pack. */
 const USUAL_MEGAPIXELS = 64;
 
-/** Of a matrix that only turns, relative: rounding. */
-const SAME_SCALE = 1e-6;
-
 /**
  * A pack in a three.js scene. It refines itself, whoever draws it: in each of the browser's animation frames at most 256 KB go to
  * the renderer's GPU, into buffers and textures that have their final sizes from the start; a picture is worth drawing only at a
@@ -80,7 +76,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** The baked light. Objects of the user's own within its bounds are lit by it. */
   readonly grids: LightwellLight[];
   /** The lamps that shine directly. */
-  readonly lamps: Lamp[];
+  readonly lamps: Lamp[] = [];
   readonly opening: Opening;
   /** Stops of exposure that the baker chose. */
   readonly exposure: number;
@@ -94,6 +90,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #images: Map<number, TextureRefinement>;
   readonly #lights = new Map<number, LightRefinement>();
   readonly #groups: LightGroups | null;
+  #direct: DirectLight | null = null;
   #links: Float32Array[] = [];
   #resolveLinks: (ends: Float32Array[]) => void = () => {};
   readonly #handOver: HandOver;
@@ -101,7 +98,6 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   #received = false;
   #complete = false;
   #wireframe = false;
-  #scale = 1;
 
   private constructor(
     opening: Opening,
@@ -130,8 +126,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
     this.grids = grids;
     for (const grid of grids) this.#lights.set(assetOf(grid.definition), new LightRefinement(grid, renderer, groups === null));
-    this.lamps = this.#createLamps();
-    this.add(...grids, ...this.lamps);
+    this.add(...grids);
   }
 
   /**
@@ -158,7 +153,38 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       if (width * height <= most * 2 ** 20) images.set(asset, await TextureRefinement.create(textures, { width, height }, renderer));
       else console.warn(`Lightwell: an image of ${width} x ${height} pixels stays coarse; maxImageMegapixels is ${most}`);
     }
-    return new LightwellScene(opening, images, grids, groups, connection, renderer, options);
+    const scene = new LightwellScene(opening, images, grids, groups, connection, renderer, options);
+    const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
+    if (lamps.length > 0) {
+      const { DirectLight } = await import('./direct/direct_light.js');
+      scene.#shine(new DirectLight(DIRECT_KIT, lamps, scene.#surroundings()));
+    }
+    return scene;
+  }
+
+  #surroundings(): ConstructorParameters<typeof DirectLight>[2] {
+    const { bounds, focus, opening } = this;
+    const [renderer, scheduler] = [this.#renderer, FrameScheduler.of(this.#renderer)];
+    return { renderer, scheduler, bounds, focus, opening, changed: () => this.#changed() };
+  }
+
+  #shine(direct: DirectLight): void {
+    this.#direct = direct;
+    this.lamps.push(...direct.lamps);
+    this.add(direct.hook, direct.carrier, ...direct.lamps);
+  }
+
+  /**
+   * How lamps cast shadows: from all of their surface, from their middle, or not at all. Making them softer takes so many milliseconds of
+   * the GPU's time in a frame; 4 when it is left out.
+   */
+  setShadows(shadows: Shadows, milliseconds?: number): void {
+    this.#direct?.setShadows(shadows, milliseconds);
+  }
+
+  /** From how many points of each lamp the shadows in the picture are, at least; Infinity once there are as many as there will be. */
+  get shadowSamples(): number {
+    return this.#direct?.samples ?? Infinity;
   }
 
   setStrategy(strategy: Strategy): void {
@@ -219,27 +245,21 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     return new Promise((resolve) => (this.#resolveLinks = resolve));
   }
 
-  /** Asks for no more until `resume`. */
+  /** Asks for no more until `resume`, and makes shadows no softer. */
   pause(): void {
     this.#connection.pause();
+    this.#direct?.pause();
   }
 
   resume(): void {
     this.#connection.resume();
+    this.#direct?.resume();
   }
 
   /** Lets what matters most to this camera's picture come first. Call it when the view has changed much, not each frame. */
   setView(camera: Camera, heightInPixels: number): void {
     const weights = viewWeights(this.opening, this.grids, camera, heightInPixels);
     this.#connection.setWeights(this.#groups?.weigh(weights) ?? weights);
-  }
-
-  override updateMatrixWorld(force?: boolean): void {
-    super.updateMatrixWorld(force);
-    const scale = Math.cbrt(Math.abs(this.matrixWorld.determinant()));
-    if (scale === 0 || Math.abs(scale / this.#scale - 1) < SAME_SCALE) return;
-    scaleLamps(this.lamps, scale / this.#scale);
-    this.#scale = scale;
   }
 
   /** Throws: a stream fills one object. */
@@ -255,13 +275,14 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#handOver.dispose();
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
-    for (const lamp of this.lamps) lamp.dispose();
+    this.#direct?.dispose();
     disposeAll(this.opening.gltf.scene);
   }
 
   /** Begins again with what was on its way to a GPU that has lost everything. */
   readonly #restart = (): void => {
     for (const refinement of this.#refinements()) refinement.restart();
+    this.#direct?.restart();
   };
 
   /** Takes an event of the connection, which the loader passes on. */
@@ -338,7 +359,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     }
     this.#handOver.run(touched);
     if (consumed > 0) this.#connection.consumed(consumed);
-    if (grown) this.dispatchEvent({ type: 'geometry' });
+    if (grown) {
+      this.#direct?.grow();
+      this.dispatchEvent({ type: 'geometry' });
+    }
     if (changed) this.#changed();
     if (pending) this.#uploads.request();
     else if (this.#received && !this.#complete) this.#onComplete();
@@ -379,33 +403,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#meshes.set(layout.asset, refinement);
   }
 
-  #createLamps(): Lamp[] {
-    const definitions = this.opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
-    // A lamp stands inside the surface that it stands for.
-    for (const { node, primitive } of definitions)
-      if (node !== undefined && primitive !== undefined)
-        for (const mesh of this.opening.meshesOf(node, primitive)) mesh.castShadow = false;
-    for (const { center, kind } of definitions)
-      if (center !== undefined && (kind === 'point' || kind === 'spot'))
-        for (const mesh of meshesIn(this.opening.gltf.scene))
-          if (isBulb(mesh, new Vector3(...center), this.focus)) mesh.castShadow = false;
-    const maps = meshesIn(this.opening.gltf.scene).flatMap(materialsOf).map(mapsOf);
-    const lamps = createLamps(definitions, this.focus, Math.max(0, ...maps.map(({ length }) => length)));
-    for (const lamp of lamps)
-      if (lamp instanceof SpotLight || lamp instanceof DirectionalLight) this.add(lamp.target);
-    return lamps;
-  }
-
   #changed(): void {
     this.dispatchEvent({ type: 'change' });
   }
-}
-
-/** Whether a mesh stands right round a lamp and is small: it does not stop the lamp's light, as in the bake. */
-function isBulb(mesh: Mesh, lamp: Vector3, focus: Box3): boolean {
-  const box = new Box3().setFromObject(mesh);
-  const sides = box.getSize(new Vector3()).toArray(), all = focus.getSize(new Vector3()).toArray();
-  return box.containsPoint(lamp) && Math.max(...sides) <= Math.max(...all) / 8;
 }
 
 function focusOf({ extensions }: Opening, bounds: Box3): Box3 {

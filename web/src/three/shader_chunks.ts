@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import { ShaderChunk } from 'three';
 import lookup from '../../../shaders/light_grid.glsl';
-import lamps from '../../../shaders/punctual_lamps.glsl';
 import reflection from '../../../shaders/light_grid_reflection.glsl';
 
 /**
- * Puts Lightwell's lookup in place of the one of three.js, and the punctual lamps of packs beside three.js's own, once a page and
- * before any material is compiled. Grids and lights of three.js's own look as before.
+ * Puts Lightwell's lookup in place of the one of three.js, once a page and before any material is compiled. Grids of three.js's own
+ * look as before.
  */
 export function installLightChunks(): void {
   if (ShaderChunk.lightprobes_pars_fragment === lookup) return;
   ShaderChunk.lightprobes_pars_fragment = lookup;
   ShaderChunk.lights_fragment_maps += reflection;
-  ShaderChunk.lights_pars_begin += lamps;
 }

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// To be appended to three.js's chunk lights_pars_begin (0.187): the lamps of a pack, each as what it is. They come as one spot light of
+// no intensity, known by its decay, whose map is a table of all lamps with the share of each that reaches every pixel
+// (docs/decisions/033-direct-light-on-the-page.md). A material calls getLamp for each of them and adds it by its own RE_Direct.
+//
+// Texels of the map, row 0: number of lamps, whether there are shares, their width and height; the viewport: x, y, width, height; then
+// five a lamp, in the camera's space:
+//   position (of a sun: where its light comes from), kind
+//   colour: radiance, or intensity; range, 0 without end
+//   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
+//   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
+//   normal; number of its share
+// Above row 0 the shares, one for every pixel of the viewport or for a few: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
+// beyond six beside it, again and again.
+
+#if NUM_SPOT_LIGHT_MAPS > 0
+
+#define LAMPS_OF_PACK -100.0
+#define LAMP_RECTANGLE 0
+#define LAMP_SPHERE 1
+#define LAMP_POINT 2
+#define LAMP_SPOT 3
+#define LAMP_SUN 4
+
+struct Lamp {
+	vec3 position;
+	int kind;
+	vec3 color;
+	float range;
+	vec3 u;
+	float outer;     // radius of a sphere, cosine of a spot's outer angle
+	vec3 v;
+	float inner;     // 1 when both sides shine, cosine of a spot's inner angle
+	vec3 normal;
+	int share;
+};
+
+Lamp readLamp( sampler2D map, int i ) {
+
+	vec4 texels[ 5 ];
+	for ( int k = 0; k < 5; k ++ ) texels[ k ] = texelFetch( map, ivec2( 2 + 5 * i + k, 0 ), 0 );
+	int kind = int( texels[ 0 ].w ), share = int( texels[ 4 ].w );
+	return Lamp( texels[ 0 ].xyz, kind, texels[ 1 ].rgb, texels[ 1 ].w, texels[ 2 ].xyz, texels[ 2 ].w, texels[ 3 ].xyz, texels[ 3 ].w, texels[ 4 ].xyz, share );
+
+}
+
+// Where the shares of a fragment stand: at its pixel, unless a neighbour shows what is nearer to the fragment's distance, as at
+// outlines, where a multisampled pixel has fragments of two surfaces.
+ivec2 getPlaceOfShares( sampler2D map, float distance ) {
+
+	vec2 size = texelFetch( map, ivec2( 0 ), 0 ).zw;
+	vec4 viewport = texelFetch( map, ivec2( 1, 0 ), 0 );
+	ivec2 last = ivec2( size ) - 1;
+	ivec2 pixel = clamp( ivec2( floor( ( gl_FragCoord.xy - viewport.xy ) * size / viewport.zw ) ), ivec2( 0 ), last );
+	ivec2 best = pixel;
+	float least = abs( texelFetch( map, pixel + ivec2( 0, 1 ), 0 ).r - distance );
+	if ( least < 0.002 * distance ) return best;
+	for ( int i = 0; i < 8; i ++ ) {
+
+		int k = i < 4 ? i : i + 1;
+		ivec2 other = clamp( pixel + ivec2( k % 3 - 1, k / 3 - 1 ), ivec2( 0 ), last );
+		float off = abs( texelFetch( map, other + ivec2( 0, 1 ), 0 ).r - distance );
+		if ( off < 0.5 * least ) { best = other; least = off; }
+
+	}
+	return best;
+
+}
+
+// How much of a lamp reaches the fragment, 0 to 1.
+float getShareOfLamp( sampler2D map, ivec2 place, int share ) {
+
+	int width = int( texelFetch( map, ivec2( 0 ), 0 ).z );
+	vec4 texel = texelFetch( map, place + ivec2( share / 6 * width, 1 ), 0 );
+	float two = texel[ 1 + share % 6 / 2 ];
+	float first = floor( two / 4096.0 );
+	return ( share % 2 == 0 ? first : two - 4096.0 * first ) / 4095.0;
+
+}
+
+// What an edge of a polygon adds to twice its vector irradiance; the ends as seen from the receiver.
+vec3 getEdgeIrradiance( vec3 a, vec3 b ) {
+
+	vec3 way = cross( a, b );
+	float area = length( way );
+	return area > 0.0 ? way * ( atan( area, dot( a, b ) ) / area ) : vec3( 0.0 );
+
+}
+
+// Vector irradiance of the part of a rectangle of radiance 1 that is above the horizon of a receiver (Lambert's formula): along the
+// normal it is the irradiance. `center` as seen from the receiver.
+vec3 getRectangleIrradiance( vec3 center, vec3 u, vec3 v, vec3 normal ) {
+
+	vec3 sum = vec3( 0.0 ), leaves = vec3( 0.0 ), enters = vec3( 0.0 );
+	for ( int i = 0; i < 4; i ++ ) {
+
+		vec3 a = center + ( i == 0 || i == 3 ? u : - u ) + ( i < 2 ? v : - v );
+		vec3 b = center + ( i > 1 ? u : - u ) + ( i == 0 || i == 3 ? v : - v );
+		float over = dot( a, normal ), then = dot( b, normal );
+		if ( over <= 0.0 && then <= 0.0 ) continue;
+		vec3 cut = mix( a, b, over / ( over - then ) );
+		if ( over < 0.0 ) enters = a = cut;
+		if ( then < 0.0 ) leaves = b = cut;
+		sum += getEdgeIrradiance( a, b );
+
+	}
+	sum = 0.5 * ( sum + getEdgeIrradiance( leaves, enters ) );
+	return dot( sum, normal ) < 0.0 ? - sum : sum;
+
+}
+
+// Irradiance of a sphere of radiance 1, of which the horizon may hide a part (S. Lagarde, C. de Rousiers, Moving Frostbite to
+// Physically Based Rendering, 2014, section 4.7.2). `cosine` of the angle to its centre, `share`: (radius / distance)^2.
+float getSphereIrradiance( float cosine, float share ) {
+
+	if ( cosine * cosine >= share ) return PI * share * saturate( cosine );
+	float sine = sqrt( 1.0 - cosine * cosine );
+	float x = sqrt( 1.0 / share - 1.0 );
+	float y = - x * cosine / sine;
+	float z = sine * sqrt( max( 0.0, 1.0 - y * y ) );
+	return max( 0.0, ( cosine * acos( clamp( y, - 1.0, 1.0 ) ) - x * z ) * share + atan( z / x ) );
+
+}
+
+// What is left of an intensity at the end of a way, where the range, if it is not 0, ends the light (KHR_lights_punctual).
+float getLampAttenuation( float squared, float range ) {
+
+	return ( range > 0.0 ? saturate( 1.0 - pow2( squared / pow2( range ) ) ) : 1.0 ) / squared;
+
+}
+
+// A lamp as light from one direction, so that its cosine times its colour is the irradiance; gives how far the lamp reaches around that
+// direction: the sine of half the angle.
+float getLamp( Lamp lamp, vec3 position, vec3 normal, out IncidentLight light ) {
+
+	vec3 way = lamp.kind == LAMP_SUN ? lamp.position : lamp.position - position;
+	float squared = dot( way, way );
+	light.direction = way * inversesqrt( squared );
+	light.color = lamp.color;
+	light.visible = true;
+	if ( lamp.kind == LAMP_RECTANGLE ) {
+
+		vec3 irradiance = getRectangleIrradiance( way, lamp.u, lamp.v, normal );
+		bool behind = dot( way, lamp.normal ) >= 0.0 && lamp.inner < 0.5;
+		float strength = behind ? 0.0 : length( irradiance );
+		if ( strength > 0.0 ) light.direction = irradiance / strength;
+		light.color *= strength;
+		return sqrt( saturate( strength / PI ) );
+
+	}
+	if ( lamp.kind == LAMP_SPHERE ) {
+
+		float share = min( pow2( lamp.outer ) / squared, 0.999 );
+		float irradiance = getSphereIrradiance( dot( normal, light.direction ), share );
+		if ( dot( normal, light.direction ) < sqrt( share ) ) light.direction = normalize( light.direction + sqrt( share ) * normal );
+		light.color *= irradiance / max( dot( normal, light.direction ), 1e-4 );
+		return sqrt( share );
+
+	}
+	if ( lamp.kind != LAMP_SUN ) light.color *= getLampAttenuation( squared, lamp.range );
+	if ( lamp.kind == LAMP_SPOT ) {
+
+		float cosine = - dot( light.direction, lamp.normal );
+		light.color *= pow2( saturate( ( cosine - lamp.outer ) / max( 1e-3, lamp.inner - lamp.outer ) ) );
+
+	}
+	return 0.0;
+
+}
+
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// To be put before the lookup of a spot light's map in three.js's chunk lights_fragment_begin (0.187): where the spot light stands for
+// the lamps of a pack, each of these lights the fragment. Gloss shows a large lamp as large, by a rougher surface.
+
+if ( spotLight.decay == LAMPS_OF_PACK ) {
+
+	vec4 head = texelFetch( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], ivec2( 0 ), 0 );
+	bool shadowed = receiveShadow && head.y > 0.5;
+	ivec2 place = shadowed ? getPlaceOfShares( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], - geometryPosition.z ) : ivec2( 0 );
+	for ( int k = 0; k < int( head.x ); k ++ ) {
+
+		Lamp lamp = readLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], k );
+		float reach = getLamp( lamp, geometryPosition, geometryNormal, directLight );
+		if ( shadowed ) directLight.color *= getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share );
+		#ifdef STANDARD
+			float roughness = material.roughness;
+			material.roughness = sqrt( sqrt( pow4( roughness ) + 0.25 * pow2( reach ) ) );
+			material.roughness = min( material.roughness, 1.0 );
+		#endif
+		#ifdef USE_CLEARCOAT
+			float clearcoatRoughness = material.clearcoatRoughness;
+			material.clearcoatRoughness = min( sqrt( sqrt( pow4( clearcoatRoughness ) + 0.25 * pow2( reach ) ) ), 1.0 );
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+		#ifdef STANDARD
+			material.roughness = roughness;
+		#endif
+		#ifdef USE_CLEARCOAT
+			material.clearcoatRoughness = clearcoatRoughness;
+		#endif
+
+	}
+	directLight.color = vec3( 0.0 );
+
+} else {

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A full-screen pass: adds one sample of a lamp, a point of it, to the two sums of every pixel: the weight w that the point would have
+// unoccluded, and w where it is seen. The sums' ratio is the share of the lamp that reaches the pixel.
+
+precision highp float;
+precision highp sampler2D;
+
+uniform sampler2D surfaces;     // octahedral geometric normal, distance along the view: 0 where nothing is
+uniform sampler2D sums;         // so far
+uniform sampler2D depths;       // of the map: 3 x 2 faces of a cube, or one picture for a sun
+uniform bool first;             // whether the sums begin here
+uniform mat4 projection;
+uniform mat3 axes;              // rows: the map's axes in the camera's space, the last one to its front
+uniform vec3 point;             // of the lamp, in the camera's space; of a sun the middle of the map
+uniform vec3 normal;            // of the lamp's surface there; 0 where it shines evenly to all sides
+uniform bool bothSides;
+uniform float size;             // a face's side, in texels
+uniform vec2 range;             // near and far end of the map; of a sun its half width and half depth
+
+out vec4 result;
+
+// Of the depth picture's own values, which reach from 0 to 1.
+const float SLACK = 3e-6;
+
+vec3 unpackNormal( vec2 packed ) {
+
+	vec3 n = vec3( packed, 1.0 - abs( packed.x ) - abs( packed.y ) );
+	if ( n.z < 0.0 ) n.xy = ( 1.0 - abs( n.yx ) ) * vec2( n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0 );
+	return normalize( n );
+
+}
+
+vec3 positionOf( float distance ) {
+
+	vec2 at = 2.0 * gl_FragCoord.xy / vec2( textureSize( surfaces, 0 ) ) - 1.0;
+	float w = projection[ 3 ][ 3 ] - projection[ 2 ][ 3 ] * distance;
+	vec2 xy = at * w + vec2( projection[ 2 ].xy ) * distance - projection[ 3 ].xy;
+	return vec3( xy / vec2( projection[ 0 ][ 0 ], projection[ 1 ][ 1 ] ), - distance );
+
+}
+
+// A receiver as the map sees it.
+struct Receiver {
+	vec3 at;        // in the face's axes; of a sun as a fraction of the half width
+	vec3 normal;
+	float side;     // to which side of its axis the face looks
+	ivec2 start;    // of the face, in texels
+	vec2 place;     // in the face, in texels
+};
+
+#ifdef SUN
+
+	Receiver receiverOf( vec3 way, vec3 n ) {
+
+		vec3 at = axes * way / range.x;
+		return Receiver( at, axes * n, 1.0, ivec2( 0 ), ( at.xy * 0.5 + 0.5 ) * size );
+
+	}
+
+	// The depth of the receiver's plane in the middle of a texel: not its own, so that no slope shades itself.
+	float depthOf( Receiver receiver, vec2 middle ) {
+
+		vec3 n = receiver.normal;
+		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 );
+		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - 1e-4;
+
+	}
+
+#else
+
+	Receiver receiverOf( vec3 way, vec3 n ) {
+
+		vec3 at = axes * way;
+		n = axes * n;
+		vec3 along = abs( at );
+		int axis = along.x > along.y ? ( along.x > along.z ? 0 : 2 ) : ( along.y > along.z ? 1 : 2 );
+		if ( axis == 0 ) { at = at.yzx; n = n.yzx; }
+		if ( axis == 1 ) { at = at.zxy; n = n.zxy; }
+		int face = 2 * axis + ( at.z < 0.0 ? 1 : 0 );
+		vec2 place = ( at.xy / abs( at.z ) * 0.5 + 0.5 ) * size;
+		return Receiver( at, n, sign( at.z ), ivec2( face % 3, face / 3 ) * int( size ), place );
+
+	}
+
+	float depthOf( Receiver receiver, vec2 middle ) {
+
+		float own = abs( receiver.at.z );
+		float plane = dot( receiver.normal, receiver.at ) / dot( receiver.normal, vec3( middle, receiver.side ) );
+		plane = plane > 0.0 ? clamp( plane, 0.9 * own, 1.1 * own ) : own;
+		return range.y / ( range.y - range.x ) * ( 1.0 - range.x / ( plane * 0.9985 ) );
+
+	}
+
+#endif
+
+// Whether the receiver's plane is lit at a texel of its face.
+float isLit( Receiver receiver, ivec2 texel ) {
+
+	texel = clamp( texel, ivec2( 0 ), ivec2( size ) - 1 );
+	float depth = depthOf( receiver, 2.0 * ( vec2( texel ) + 0.5 ) / size - 1.0 );
+	return texelFetch( depths, texel + receiver.start, 0 ).r >= depth - SLACK ? 1.0 : 0.0;
+
+}
+
+float lookUp( Receiver receiver ) {
+
+	#ifdef SUN
+		if ( any( greaterThan( abs( receiver.at.xy ), vec2( 1.0 ) ) ) ) return 1.0;
+	#endif
+	ivec2 texel = ivec2( receiver.place );
+	#ifdef SOFT
+
+		// A tent of three texels' width.
+		vec2 f = fract( receiver.place );
+		vec2 shares[ 3 ] = vec2[ 3 ]( 0.5 - 0.5 * f, vec2( 0.5 ), 0.5 * f );
+		float lit = 0.0;
+		for ( int x = 0; x < 3; x ++ ) for ( int y = 0; y < 3; y ++ ) lit += shares[ x ].x * shares[ y ].y * isLit( receiver, texel + ivec2( x, y ) - 1 );
+		return lit;
+
+	#else
+
+		return isLit( receiver, texel );
+
+	#endif
+
+}
+
+void main() {
+
+	vec4 surface = texelFetch( surfaces, ivec2( gl_FragCoord.xy ), 0 );
+	vec2 before = first ? vec2( 0.0 ) : texelFetch( sums, ivec2( gl_FragCoord.xy ), 0 ).rg;
+	if ( surface.b == 0.0 ) { result = vec4( before, 0.0, 0.0 ); return; }
+
+	vec3 n = unpackNormal( surface.rg );
+	vec3 way = positionOf( surface.b ) - point;
+	#ifdef SUN
+		float cosine = - dot( n, vec3( axes[ 0 ][ 2 ], axes[ 1 ][ 2 ], axes[ 2 ][ 2 ] ) );
+		float weight = 1.0;
+	#else
+		float squared = dot( way, way );
+		float cosine = - dot( n, way ) * inversesqrt( squared );
+		float leaving = dot( normal, way ) * inversesqrt( squared );
+		float weight = normal == vec3( 0.0 ) ? 1.0 : max( 0.0, bothSides ? abs( leaving ) : leaving );
+		weight /= squared;
+	#endif
+	// A trifle where the point is below the horizon: pixels to which that happens for all points are dark.
+	weight *= max( cosine, 1e-4 );
+	float lit = cosine > 0.0 && weight > 0.0 ? lookUp( receiverOf( way, n ) ) : 0.0;
+	result = vec4( before + weight * vec2( 1.0, lit ), 0.0, 0.0 );
+
+}

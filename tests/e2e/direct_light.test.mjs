@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The direct light of a pack's lamps: each by its own formula, times the share of it that reaches every pixel.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { test } from 'node:test';
+import { launch, openPage } from './browser.mjs';
+import { forAllTests, forTest } from './lifetime.mjs';
+import { bake, BIN, temporaryFolder } from './packs.mjs';
+import { room, sphere, writeScene } from './scenes.mjs';
+import { startStaticServer } from './static_server.mjs';
+import { CLIENT, scriptPage } from './test_page.mjs';
+import { complete } from './view.mjs';
+
+const folder = temporaryFolder();
+const browser = await forAllTests(launch());
+
+async function openScript(t, path, { query = '', ...routes } = {}) {
+  const server = await forTest(t, startStaticServer({ ...(await scriptPage(path)), ...CLIENT, ...routes }));
+  const opened = await forTest(t, openPage(browser));
+  await opened.page.goto(server.url + query);
+  return opened;
+}
+
+const subtract = (a, b) => a.map((x, i) => x - b[i]);
+const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+const length = (a) => Math.sqrt(dot(a, a));
+
+/** Irradiance by sums over small parts of a surface of radiance 1; each part is [place, normal, area]. */
+function summed(parts, place, normal) {
+  return parts.reduce((sum, [at, facing, area]) => {
+    const way = subtract(at, place);
+    const distance = length(way);
+    const cosines = Math.max(0, dot(way, normal)) * Math.max(0, -dot(way, facing));
+    return sum + (cosines * area) / distance ** 4;
+  }, 0);
+}
+
+/** Parts of a rectangle in a plane of one y, which shines down. */
+function partsOfRectangle([x0, x1], y, [z0, z1], steps = 300) {
+  const area = ((x1 - x0) * (z1 - z0)) / steps ** 2;
+  const along = (a, b, i) => a + ((b - a) * (i + 0.5)) / steps;
+  return Array.from({ length: steps ** 2 }, (_, i) => [[along(x0, x1, i % steps), y, along(z0, z1, Math.floor(i / steps))], [0, -1, 0], area]);
+}
+
+function partsOfSphere(center, radius, steps = 400) {
+  return Array.from({ length: steps ** 2 }, (_, i) => {
+    const z = -1 + (2 * ((i % steps) + 0.5)) / steps;
+    const turn = (2 * Math.PI * (Math.floor(i / steps) + 0.5)) / steps;
+    const across = Math.sqrt(1 - z * z);
+    const facing = [across * Math.cos(turn), across * Math.sin(turn), z];
+    return [center.map((c, axis) => c + radius * facing[axis]), facing, (4 * Math.PI * radius ** 2) / steps ** 2];
+  });
+}
+
+const unit = (a) => a.map((x) => x / length(a));
+const RECTANGLE = { kind: 'rectangle', center: [0, 1, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.3], radiance: [1, 1, 1] };
+const SUN = { kind: 'sun', normal: [0, -1, 0], intensity: [1, 1, 1] };
+const SPHERE = { kind: 'sphere', center: [0, 1, 0], radius: 0.4, radiance: [1, 1, 1] };
+/** Of the sums above, and of floats in a shader; the aim is half a percent. */
+const EXACT = 2e-3;
+
+test('a rectangle and a sphere give the irradiance of their whole surface, above the horizon and half below it', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.irradiance);
+  const measured = (...values) => page.evaluate((all) => irradiance(...all), values);
+  const places = [
+    [[0, 0, 0], [0, 1, 0]],
+    [[0.7, 0.2, 0.3], unit([0.3, 1, -0.2])],
+    [[0.4, 0.3, 0], unit([1, 0.3, 0])],
+    [[1.2, 0.9, 0.1], unit([-1, 0, 0])],
+  ];
+  for (const [lamp, parts] of [[RECTANGLE, partsOfRectangle([-0.5, 0.5], 1, [-0.3, 0.3])], [SPHERE, partsOfSphere([0, 1, 0], 0.4)]])
+    for (const [place, normal] of places) {
+      const [value, expected] = [await measured(lamp, place, normal), summed(parts, place, normal)];
+      assert.ok(Math.abs(value - expected) <= EXACT * expected, `${lamp.kind} at ${place}: ${value} instead of ${expected}`);
+    }
+  assert.equal(await measured(RECTANGLE, [0, 1.5, 0], [0, -1, 0]), 0, 'behind a rectangle');
+  const above = await measured({ ...RECTANGLE, twoSided: true }, [0, 2, 0], [0, -1, 0]);
+  assert.ok(Math.abs(above - (await measured(RECTANGLE, [0, 0, 0], [0, 1, 0]))) < EXACT * above, 'both sides are alike');
+  const sun = await measured(SUN, [0, 0, 0], unit([0, 1, 1]));
+  assert.ok(Math.abs(sun - Math.SQRT1_2) < EXACT * sun, `a sun: ${sun}`);
+  assert.deepEqual(errors, []);
+});
+
+/** The share of a square lamp of half side 0.5 at y = 2 that a half-plane at y = 1 over x < 0 leaves to a place of the floor. */
+function shareBehindEdge(x) {
+  const whole = partsOfRectangle([-0.5, 0.5], 2, [-0.5, 0.5], 100);
+  const left = Math.min(0.5, Math.max(-0.5, -x));
+  return left === 0.5 ? 0 : summed(partsOfRectangle([left, 0.5], 2, [-0.5, 0.5], 100), [x, 0, 0], [0, 1, 0]) / summed(whole, [x, 0, 0], [0, 1, 0]);
+}
+
+/** The largest errors, root mean square over the penumbra and in its mean, of shadows from so many points of a lamp. */
+const PENUMBRA = { 64: [0.05, 0.01], 256: [0.02, 0.005] };
+
+/** A sun stays where it is from sample to sample: its shadow has an edge, as wide as a texel of its map or a pixel. */
+const EDGE = 0.02;
+
+test('the shadow of a sun has a sharp edge', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.penumbra);
+  const { shares } = await page.evaluate((values) => penumbra(...values), [SUN, 0.48, 32]);
+  shares.forEach((share, i) => {
+    const x = -0.48 + (0.96 * (i + 0.5)) / shares.length;
+    if (Math.abs(x) > EDGE) assert.ok(Math.abs(share - Number(x > 0)) < 1e-3, `${share} at ${x}`);
+  });
+  assert.deepEqual(errors, []);
+});
+
+test('the penumbra of a square lamp behind an edge is that of the closed form', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.penumbra);
+  const lamp = { kind: 'rectangle', center: [0, 2, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.5], radiance: [1, 1, 1] };
+  for (const [samples, [mostError, mostBias]] of Object.entries(PENUMBRA)) {
+    const { shares } = await page.evaluate((values) => penumbra(...values), [lamp, 0.48, Number(samples)]);
+    const off = shares.map((share, i) => share - shareBehindEdge(-0.48 + (0.96 * (i + 0.5)) / shares.length));
+    const error = Math.sqrt(off.reduce((sum, x) => sum + x * x, 0) / off.length);
+    const bias = off.reduce((sum, x) => sum + x, 0) / off.length;
+    t.diagnostic(`${samples} points: error ${error.toFixed(4)}, bias ${bias.toFixed(4)}`);
+    assert.ok(error < mostError && Math.abs(bias) < mostBias, `${samples} points: error ${error}, bias ${bias}`);
+  }
+  assert.deepEqual(errors, []);
+});
+
+test('surfaces are lit on the side that is seen, be it their back', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.fromBehind);
+  const [front, back] = await page.evaluate((lamp) => fromBehind(lamp), RECTANGLE);
+  assert.ok(front > 0.1, `${front}`);
+  assert.ok(Math.abs(back - front) < 1e-3 * front, `${back} from behind, ${front} from before`);
+  assert.deepEqual(errors, []);
+});
+
+/** Opens a pack of which `settle` lets all samples come, as many a frame as the GPU can take, and draws. */
+async function openPack(t, pack, query = '?light=direct') {
+  const opened = await openScript(t, 'tests/e2e/pages/lambert.ts', { query, '/pack.lw.glb': pack });
+  await complete(opened.page);
+  await opened.page.evaluate(() => document.querySelector('lightwell-view').pack.setShadows('soft', 10_000));
+  await settled(opened.page);
+  return opened;
+}
+
+const settled = (page) =>
+  page.waitForFunction(
+    () => document.querySelector('lightwell-view').pack.shadowSamples === Infinity,
+    undefined,
+    { timeout: 110_000, polling: 100 },
+  );
+
+async function pictureOf(page, file) {
+  const url = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
+  writeFileSync(file, Buffer.from(url.split(',')[1], 'base64'));
+}
+
+/** Difference in CIEDE2000 between pictures in files. */
+const differenceOf = (a, b) => JSON.parse(execFileSync(`${BIN}/lightwell`, ['diff', a, b, '--metric', 'deltae', '--json', '--quiet'], { encoding: 'utf8' }));
+
+/** CIEDE2000; 1 is just visible. With 512 samples of `render` 0.51 and 1.97, of which most is in the edges of facets smaller than a pixel. */
+const MEAN = 0.7;
+const P95 = 2.5;
+
+test('at rest a room with a lamp looks as in lightwell render; then nothing is drawn any more', async (t) => {
+  const pack = bake('box-small', `${folder}/box.lw.glb`);
+  const { page, errors } = await openPack(t, pack);
+  await pictureOf(page, `${folder}/page.png`);
+  const picture = ['--only', 'direct', '--tone', 'none', '--size', '320x180', '--spp', '256', '--quiet'];
+  execFileSync(`${BIN}/lightwell`, ['render', pack, '-o', `${folder}/render.png`, ...picture]);
+  const { mean, p95 } = differenceOf(`${folder}/page.png`, `${folder}/render.png`);
+  t.diagnostic(`mean ${mean.toFixed(2)}, 95th percentile ${p95.toFixed(2)}`);
+  assert.ok(mean <= MEAN && p95 <= P95, `mean ${mean}, 95th percentile ${p95}`);
+  const drawn = () => page.evaluate(() => globalThis.frames);
+  await page.evaluate(() => {
+    globalThis.frames = 0;
+    document.querySelector('lightwell-view').addEventListener('frame', () => globalThis.frames++);
+  });
+  await page.waitForTimeout(1000);
+  const before = await drawn();
+  await page.waitForTimeout(1500);
+  assert.equal(await drawn(), before, 'frames at rest');
+  assert.deepEqual(errors, []);
+});
+
+const GREY = { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.7, 0.7, 0.7, 1] } };
+
+/** A room with a ball and two lamps, each of a group of its own. */
+function roomWithGroups() {
+  const lamps = ['Left', 'Right'].map((name, i) => ({ lamp: { type: 'point', intensity: 1, color: [1, 1, 1] }, at: [i - 0.5, 0.6, 0.2] }));
+  const file = writeScene(`${folder}/groups.gltf`, [{ mesh: room(1), material: GREY }, { mesh: sphere(0.2, 24), material: GREY }], lamps);
+  const gltf = JSON.parse(readFileSync(file, 'utf8'));
+  ['Room', 'Ball', 'Left.001', 'Right.001'].forEach((name, i) => (gltf.nodes[i].name = name));
+  writeFileSync(file, JSON.stringify(gltf));
+  return bake(file, `${folder}/groups.lw.glb`, { groups: 'name' });
+}
+
+test('a lamp is switched, dimmed and coloured without a new sample', async (t) => {
+  const { page, errors } = await openPack(t, roomWithGroups());
+  const left = await page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    const seen = [];
+    for (const factor of [0, [0, 2, 0], 1]) {
+      view.setLightGroup('Left', factor);
+      view.draw();
+      seen.push(view.pack.shadowSamples);
+    }
+    return seen;
+  });
+  assert.deepEqual(left, [Infinity, Infinity, Infinity]);
+  assert.deepEqual(errors, []);
+});
+
+const POINT = { kind: 'point', center: [0, 2, 0], normal: [0, -1, 0], intensity: [1, 1, 1], range: 5 };
+const SPOT = { ...POINT, kind: 'spot', innerConeAngle: 0.1, outerConeAngle: 0.5 };
+
+test('lamps follow the scale of their pack, shadows and all', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.scaled);
+  for (const lamp of [RECTANGLE, SPHERE, POINT, SPOT].map((definition) => ({ ...definition, center: [0, 2, 0] }))) {
+    const [whole, half] = await page.evaluate((of) => [scaled(of, 1), scaled(of, 0.5)], lamp);
+    assert.ok(Math.max(...whole) > 0.05, `${lamp.kind}: ${whole}`);
+    // The range of a lamp's map is the scene's, so that depths are rounded otherwise at an edge.
+    const off = whole.filter((value, i) => Math.abs(value - half[i]) > 0.01 * Math.max(...whole));
+    assert.ok(off.length <= 1, `${lamp.kind}: ${whole} became ${half}`);
+  }
+  assert.deepEqual(errors, []);
+});
+
+test('an object of the user’s own casts a shadow, which goes where it goes', async (t) => {
+  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.ownObject);
+  for (const lamp of [POINT, SPOT, SUN]) {
+    const [without, below, aside] = await page.evaluate((of) => ownObject(of), lamp);
+    assert.ok(without > 0.1, `${lamp.kind}: ${without}`);
+    assert.deepEqual([below, aside], [0, without], lamp.kind);
+  }
+  assert.deepEqual(errors, []);
+});

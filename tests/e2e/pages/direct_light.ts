@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Lamps without a pack: their irradiance on white surfaces, and their shadows.
+import {
+  Box3,
+  type Camera,
+  DoubleSide,
+  FloatType,
+  Group,
+  Mesh,
+  MeshLambertMaterial,
+  type Object3D,
+  OrthographicCamera,
+  PlaneGeometry,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+  WebGLRenderTarget,
+} from 'three';
+import { DirectLight } from '../../../web/src/three/direct/direct_light.js';
+import { DIRECT_KIT } from '../../../web/src/three/direct_kit.js';
+import type { LampDefinition } from '../../../web/src/three/extensions.js';
+import { FrameScheduler } from '../../../web/src/three/frame_scheduler.js';
+import type { Opening } from '../../../web/src/three/opening.js';
+
+type Triple = [number, number, number];
+
+const renderer = new WebGLRenderer();
+const bounds = new Box3(new Vector3(-2, -2, -2), new Vector3(2, 2, 2));
+/** Milliseconds of a frame, so that samples come as fast as they can. */
+const ALL_TIME = 10_000;
+
+interface Lit {
+  direct: DirectLight;
+  scene: Scene;
+  /** How often a better picture could be drawn. */
+  changes: number;
+}
+
+function light(definitions: LampDefinition[], objects: Object3D[]): Lit {
+  const opening = { gltf: { scene: new Group() }, meshesOf: () => [] } as unknown as Opening;
+  const changed = () => void lit.changes++;
+  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, changed };
+  const direct = new DirectLight(DIRECT_KIT, definitions, surroundings);
+  const lit: Lit = { direct, scene: new Scene().add(direct.hook, direct.carrier, ...direct.lamps, ...objects), changes: 0 };
+  return lit;
+}
+
+/** Red of a row of pixels times pi: the irradiance on white. */
+function rowOf(scene: Scene, camera: Camera, width: number): number[] {
+  const target = new WebGLRenderTarget(width, 1, { type: FloatType });
+  renderer.setRenderTarget(target);
+  renderer.render(scene, camera);
+  const pixels = new Float32Array(4 * width);
+  renderer.readRenderTargetPixels(target, 0, 0, width, 1, pixels);
+  renderer.setRenderTarget(null);
+  target.dispose();
+  return Array.from({ length: width }, (_, i) => pixels[4 * i]! * Math.PI);
+}
+
+function surface(width: number, depth: number, place: Triple, towards: Triple): Mesh {
+  const mesh = new Mesh(new PlaneGeometry(width, depth), new MeshLambertMaterial({ side: DoubleSide }));
+  mesh.castShadow = mesh.receiveShadow = true;
+  mesh.position.set(...place);
+  mesh.lookAt(new Vector3(...place).add(new Vector3(...towards)));
+  return mesh;
+}
+
+/** Looks down a row along x, from y = 0.9 to below. */
+function rowCamera(half: number): OrthographicCamera {
+  const camera = new OrthographicCamera(-half, half, 0.01, -0.01, 0, 2);
+  camera.position.set(0, 0.9, 0);
+  camera.up.set(0, 0, -1);
+  camera.lookAt(0, 0, 0);
+  return camera;
+}
+
+/** Of one lamp, with nothing in its way, on a surface at a place that faces somewhere. */
+export function irradiance(definition: LampDefinition, place: Triple, normal: Triple): number {
+  const { direct, scene } = light([definition], [surface(0.001, 0.001, place, normal)]);
+  direct.setShadows('off');
+  const camera = new OrthographicCamera(-0.0001, 0.0001, 0.0001, -0.0001, 0, 1);
+  camera.position.set(...place).addScaledVector(new Vector3(...normal).normalize(), 0.01);
+  camera.lookAt(new Vector3(...place));
+  const [measured] = rowOf(scene, camera, 1);
+  direct.dispose();
+  return measured!;
+}
+
+/** A lamp above, a half-plane at y = 1 over x < 0, and the floor: what of the lamp reaches each pixel of a row from -half to half. */
+export async function penumbra(definition: LampDefinition, half: number, samples: number): Promise<{ shares: number[]; changes: number }> {
+  const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
+  const lit = light([definition], objects);
+  const camera = rowCamera(half);
+  const width = 128;
+  rowOf(lit.scene, camera, width);
+  lit.direct.setShadows('off');
+  const whole = rowOf(lit.scene, camera, width);
+  lit.direct.setShadows('soft', ALL_TIME);
+  rowOf(lit.scene, camera, width);
+  for (let seen = lit.changes; lit.direct.samples < samples; seen = lit.changes) {
+    while (lit.changes === seen) await new Promise(requestAnimationFrame);
+    rowOf(lit.scene, camera, width);
+  }
+  const shares = rowOf(lit.scene, camera, width).map((value, i) => value / whole[i]!);
+  lit.direct.dispose();
+  return { shares, changes: lit.changes };
+}
+
+/** The floor seen from above, when its front looks down. */
+export function fromBehind(definition: LampDefinition): number[] {
+  return [1, -1].map((up) => {
+    const { direct, scene } = light([definition], [surface(4, 4, [0, 0, 0], [0, up, 0])]);
+    const row = rowOf(scene, rowCamera(0.5), 16);
+    direct.dispose();
+    return Math.min(...row);
+  });
+}
+
+/** A row of the floor below a lamp and the half-plane, all of it so many times as large. */
+export function scaled(definition: LampDefinition, factor: number): number[] {
+  const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
+  const { direct, scene } = light([definition], objects);
+  const camera = rowCamera(0.48);
+  const world = new Group().add(...scene.children, camera);
+  world.scale.setScalar(factor);
+  camera.scale.setScalar(1 / factor);
+  for (const side of ['left', 'right', 'top', 'bottom', 'far'] as const) camera[side] *= factor;
+  camera.updateProjectionMatrix();
+  const row = rowOf(new Scene().add(world), camera, 32);
+  direct.dispose();
+  return row;
+}
+
+/** The floor below a lamp, and once an object of the user's own is over it, and where that has gone aside. */
+export function ownObject(definition: LampDefinition): number[] {
+  const { direct, scene } = light([definition], [surface(10, 10, [0, 0, 0], [0, 1, 0])]);
+  const middle = () => rowOf(scene, rowCamera(0.1), 8)[4]!;
+  const own = surface(1, 1, [0, 0.95, 0], [0, 1, 0]);
+  const values = [middle()];
+  scene.add(own);
+  values.push(middle());
+  own.position.x = 5;
+  values.push(middle());
+  direct.dispose();
+  return values;
+}
+
+Object.assign(globalThis, { scaled, ownObject, irradiance, penumbra, fromBehind });

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {
+  Box3,
+  BufferGeometry,
+  Camera,
+  DataTexture,
+  Object3D,
+  Points,
+  PointsMaterial,
+  Sphere,
+  SpotLight,
+  Vector3,
+  WebGLRenderer,
+} from 'three';
+import type { DirectKit } from '../direct_kit.js';
+import type { LampDefinition } from '../extensions.js';
+import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
+import type { Opening } from '../opening.js';
+import { aside } from './aside.js';
+import { letLampsThrough } from './casters.js';
+import { three, useKit } from './kit.js';
+import { createLamp, formOf, type Lamp, type PlacedLamp, placed, texelsOf } from './lamp.js';
+import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
+import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
+import { ScreenShares } from './screen_shares.js';
+import { ShadowMap } from './shadow_map.js';
+import { signatureOf, Surfaces } from './surfaces.js';
+
+export type Shadows = 'soft' | 'hard' | 'off';
+
+/** How many points of a lamp are enough: of one with an area, and of one without, whose map alone is smoothed. */
+const POINTS = 256;
+const POINTS_OF_POINT = 32;
+/** A visitor who saves data saves power, too. */
+const SAVING = 4;
+/** A picture is shown when every lamp has had so many points, and each time that they have doubled. */
+const FIRST_SHOWN = 16;
+/** Of the GPU's time in a frame, milliseconds. */
+const BUDGET = 4;
+/** Sides of the maps, in texels: of a cube's faces, and of a sun's picture. */
+const CUBE_SIZE = 512;
+const SUN_SIZE = 2048;
+/** Of more lamps than this the maps that are kept are half as fine. */
+const FEW_LAMPS = 4;
+/** While geometry streams in, shadows are drawn anew at most so often, in milliseconds. */
+const INTERVAL = 500;
+
+/** A lamp's shadow in the present view. */
+interface Shadow {
+  readonly lamp: Lamp;
+  /** From the lamp's middle; kept while nothing moves but the camera. */
+  readonly middle: ShadowMap;
+  form: number[] | null;
+  /** Points whose samples are in the sums: 0 when only the middle is, -1 when nothing is. */
+  count: number;
+}
+
+export interface Surroundings {
+  readonly renderer: WebGLRenderer;
+  readonly scheduler: FrameScheduler;
+  /** Of all meshes, and of what the pack is about, in the pack's space. */
+  readonly bounds: Box3;
+  readonly focus: Box3;
+  readonly opening: Opening;
+  /** Called when a better picture can be drawn. */
+  readonly changed: () => void;
+}
+
+/**
+ * The direct light of a pack's lamps. Before a picture's first object is drawn, whoever draws it, all pixels' shares of each lamp are
+ * made ready; between pictures, while nothing changes, they are refined by shadow maps from ever more points of the lamps.
+ */
+export class DirectLight {
+  readonly lamps: Lamp[];
+  /** Stands for all lamps: three.js gives its map to every material that is lit. */
+  readonly carrier: SpotLight;
+  /** Is drawn first, and shows nothing. No mesh, so that who looks for the pack's meshes finds those alone. */
+  readonly hook: Points<BufferGeometry, PointsMaterial>;
+  readonly #surroundings: Surroundings;
+  readonly #surfaces: Surfaces;
+  readonly #shares: ScreenShares;
+  readonly #table: DataTexture;
+  readonly #shadows: Shadow[];
+  readonly #scratch = new Map<boolean, ShadowMap>();
+  readonly #task: FrameTask;
+  readonly #floats: boolean;
+  #kind: Shadows = 'soft';
+  #root: Object3D | null = null;
+  #signature = NaN;
+  #seenStale = true;
+  #mapsTime = -Infinity;
+  #growing: ReturnType<typeof setTimeout> | undefined;
+  #showStale = true;
+  /** The two views before, to tell cameras that take turns. */
+  #views: string[] = [];
+  #drawing = false;
+  #paused = false;
+  #batch = 1;
+
+  constructor(kit: DirectKit, definitions: LampDefinition[], surroundings: Surroundings) {
+    useKit(kit);
+    installLampChunks();
+    this.#surroundings = surroundings;
+    const { renderer, scheduler } = surroundings;
+    letLampsThrough(definitions, surroundings.opening, surroundings.focus);
+    this.lamps = definitions.map(createLamp);
+    this.#floats = renderer.extensions.has('EXT_color_buffer_float');
+    this.#surfaces = new Surfaces(renderer);
+    const width = 2 + 5 * this.lamps.length;
+    this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
+    this.#shares = new ScreenShares(this.lamps.length, width);
+    const size = this.lamps.length > FEW_LAMPS ? 2 : 1;
+    this.#shadows = this.lamps.map((lamp) => {
+      const sun = lamp.definition.kind === 'sun';
+      return { lamp, middle: new ShadowMap(sun, (sun ? SUN_SIZE : CUBE_SIZE) / size), form: null, count: -1 };
+    });
+    this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
+    this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table;
+    this.hook = new three.Points(new three.BufferGeometry(), new three.PointsMaterial({ colorWrite: false, depthWrite: false }));
+    this.hook.raycast = () => {};
+    this.hook.geometry.boundingSphere = new three.Sphere();
+    this.hook.frustumCulled = false;
+    this.hook.renderOrder = -Infinity;
+    this.hook.onBeforeRender = (_, __, camera) => this.#prepare(camera);
+    this.#task = scheduler.add(() => this.#refine(), BUDGET);
+  }
+
+  /** How many points of each lamp that shines are in the picture, at least; Infinity when there are as many as there will be. */
+  get samples(): number {
+    const open = this.#shining().filter((shadow) => shadow.count < this.#enough(shadow));
+    return open.length === 0 ? Infinity : Math.max(0, Math.min(...open.map(({ count }) => count)));
+  }
+
+  /** `milliseconds`: of the GPU's time in a frame that samples may take. */
+  setShadows(kind: Shadows, milliseconds = BUDGET): void {
+    this.#kind = kind;
+    this.#task.milliseconds = milliseconds;
+    this.restart();
+  }
+
+  /** Takes no sample until `resume`. */
+  pause(): void {
+    this.#paused = true;
+    this.#task.cancel();
+  }
+
+  resume(): void {
+    this.#paused = false;
+    if (this.#root !== null && this.samples < Infinity) this.#task.request();
+  }
+
+  /** The pack's meshes have more faces: what is seen is seen anew with the next picture, what casts shadows after a while. */
+  grow(): void {
+    this.#seenStale = true;
+    this.#growing ??= setTimeout(() => {
+      this.#growing = undefined;
+      this.restart();
+    }, Math.max(0, this.#mapsTime + INTERVAL - performance.now()));
+  }
+
+  /** Begins anew, after the GPU has lost all or the scene has changed. */
+  restart(): void {
+    this.#seenStale = true;
+    for (const shadow of this.#shadows) shadow.form = null;
+    this.#surroundings.changed();
+  }
+
+  dispose(): void {
+    clearTimeout(this.#growing);
+    this.#task.dispose();
+    for (const { middle } of this.#shadows) middle.dispose();
+    for (const map of this.#scratch.values()) map.dispose();
+    const { geometry, material } = this.hook;
+    for (const part of [this.#surfaces, this.#shares, this.#table, this.carrier, geometry, material]) part.dispose();
+  }
+
+  #shining(): Shadow[] {
+    const shines = ({ visible, intensity, color }: Lamp) => visible && intensity * Math.max(color.r, color.g, color.b) > 0;
+    return this.#shadows.filter(({ lamp }) => shines(lamp));
+  }
+
+  #enough({ lamp: { definition } }: Shadow): number {
+    if (this.#kind !== 'soft') return 0;
+    const saving = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
+    const area = definition.kind === 'rectangle' || definition.kind === 'sphere';
+    return (area ? POINTS : POINTS_OF_POINT) / (saving ? SAVING : 1);
+  }
+
+  /** Everything that materials read, for a camera that is about to draw. */
+  #prepare(camera: Camera): void {
+    if (this.#drawing) return;
+    const { renderer } = this.#surroundings;
+    const shining = this.#shining();
+    const shadowed = this.#floats && this.#kind !== 'off' && shining.length > 0 && !('isArrayCamera' in camera);
+    if (this.#floats) {
+      const viewport = this.#shares.see(renderer, camera);
+      this.#drawing = true;
+      aside(renderer, () => {
+        if (shadowed) this.#look(camera, shining, viewport);
+        this.#writeTable(camera, shining, shadowed);
+        this.#shares.showTable(renderer, this.#table);
+      });
+      this.#drawing = false;
+    } else this.#writeTable(camera, shining, false);
+  }
+
+  /** Looks the kept maps up where the view, what is seen, or the map is another than before. */
+  #look(camera: Camera, shining: Shadow[], moved: boolean): void {
+    const { renderer } = this.#surroundings;
+    const root = (this.#root = topOf(this.hook));
+    const signature = signatureOf(root);
+    if (signature !== this.#signature) {
+      for (const shadow of this.#shadows) shadow.form = null;
+      this.#seenStale = true;
+    }
+    this.#signature = signature;
+    if (moved || this.#seenStale) {
+      this.#shares.drawSurfaces(this.#surfaces, root, camera);
+      for (const shadow of this.#shadows) shadow.count = -1;
+      this.#seenStale = false;
+    }
+    for (const shadow of shining) {
+      const form = placed(shadow.lamp);
+      const now = formOf(form);
+      if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
+        this.#drawMap(shadow.middle, form, middleOf(form));
+        this.#mapsTime = performance.now();
+        Object.assign(shadow, { form: now, count: -1 });
+      }
+      if (shadow.count >= 0) continue;
+      this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
+      shadow.count = 0;
+      this.#showStale = true;
+    }
+    if (this.#showStale) this.#shares.show(renderer);
+    this.#showStale = false;
+    if (this.#takesTurns(camera, moved)) this.#task.cancel();
+    else if (!this.#paused && this.samples < Infinity) this.#task.request();
+  }
+
+  /** Whether two cameras draw one after the other, for ever: a picture that a refinement asked for would undo it. */
+  #takesTurns(camera: Camera, moved: boolean): boolean {
+    const view = camera.uuid;
+    const turns = moved && this.#views[0] !== undefined && this.#views[1] === view && this.#views[0] !== view;
+    if (moved) this.#views = [view, this.#views[0] ?? view];
+    else this.#views = [view];
+    return turns;
+  }
+
+  #drawMap(map: ShadowMap, form: PlacedLamp, point: LampPoint): void {
+    const { bounds, focus } = this.#surroundings;
+    map.draw(this.#surfaces, this.#root!, form, point, this.#sphere(bounds), this.#sphere(focus));
+  }
+
+  #sphere(box: Box3): Sphere {
+    return box.getBoundingSphere(new three.Sphere()).applyMatrix4(this.hook.matrixWorld);
+  }
+
+  #writeTable(camera: Camera, shining: Shadow[], shadowed: boolean): void {
+    const view = camera.matrixWorldInverse;
+    const space = {
+      point: (of: Vector3) => of.clone().applyMatrix4(view),
+      direction: (of: Vector3) => of.clone().applyMatrix4(view).sub(new three.Vector3().setFromMatrixPosition(view)),
+    };
+    const texels = shining.flatMap((shadow) => texelsOf(placed(shadow.lamp), space, this.#shadows.indexOf(shadow)));
+    const data = this.#table.image.data as Float32Array;
+    const { width, height, viewport } = this.#shares;
+    data.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...texels]);
+    this.#table.needsUpdate = true;
+  }
+
+  /** Adds samples of the lamps that have fewest. */
+  #refine(): void {
+    const { renderer, scheduler, changed } = this.#surroundings;
+    const countOf = (shadow: Shadow) => (shadow.count < this.#enough(shadow) ? shadow.count : Infinity);
+    const least = () => Math.min(...this.#shining().map(countOf));
+    if (this.#paused || this.#growing !== undefined || this.#shining().some(({ count }) => count < 0)) return;
+    const before = least();
+    const started = performance.now();
+    const batch = this.#batch;
+    aside(renderer, () => {
+      for (let i = 0; i < batch && least() < Infinity; i++) this.#sample(this.#shining().find(({ count }) => count === least())!);
+    });
+    scheduler.whenDone(() => (this.#batch = performance.now() - started < 20 ? Math.min(8, batch + 1) : Math.max(1, batch >> 1)));
+    const after = least();
+    if (after === Infinity || (after >= FIRST_SHOWN && isPowerPassed(before, after))) {
+      this.#showStale = true;
+      changed();
+    }
+    if (after < Infinity) this.#task.request();
+  }
+
+  #sample(shadow: Shadow): void {
+    const { renderer } = this.#surroundings;
+    const sun = shadow.middle.sun;
+    const map = this.#scratch.get(sun) ?? new ShadowMap(sun, sun ? SUN_SIZE : CUBE_SIZE);
+    this.#scratch.set(sun, map);
+    const form = placed(shadow.lamp);
+    this.#drawMap(map, form, pointOf(form, shadow.count));
+    this.#shares.add(renderer, this.#shadows.indexOf(shadow), map, shadow.count === 0, false);
+    shadow.count++;
+  }
+}
+
+/** Whether a power of two lies between two numbers, the latter included. */
+function isPowerPassed(before: number, after: number): boolean {
+  return Math.floor(Math.log2(after)) > Math.floor(Math.log2(Math.max(before, 0.5)));
+}
+
+function topOf(object: Object3D): Object3D {
+  let top = object;
+  while (top.parent !== null) top = top.parent;
+  return top;
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Camera, Matrix4, Object3D, Texture, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
+import lookupShader from '../../../../shaders/shadow_lookup.glsl';
+import sharesShader from '../../../../shaders/shadow_shares.glsl';
+import { FullScreen } from './full_screen.js';
+import { three } from './kit.js';
+import type { ShadowMap } from './shadow_map.js';
+import type { Surfaces } from './surfaces.js';
+
+const SUMS = 6;
+/** That the sums may take, in bytes: of many lamps in a large picture they are coarser than its pixels. */
+const MOST_BYTES = 96 * 2 ** 20;
+const BYTES_OF_A_SUM = 8;
+const COPY = `precision highp float;uniform highp sampler2D table;out vec4 result;
+void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
+
+/**
+ * For every pixel of a view, or every few of them, which share of each lamp reaches it: the ratio of two sums over points of the lamp,
+ * which are kept apart for each lamp. `picture` is what materials read (shaders/direct_light.glsl).
+ */
+export class ScreenShares {
+  readonly picture: WebGLRenderTarget;
+  readonly #surfaces: WebGLRenderTarget;
+  readonly #sums: WebGLRenderTarget[];
+  /** The sums are added up from one target into another, which then takes its place. */
+  #spare: WebGLRenderTarget;
+  readonly #lookups = new Map<string, FullScreen>();
+  readonly #shares: FullScreen;
+  readonly #table: FullScreen;
+  readonly #viewport: Vector4 = new three.Vector4();
+  readonly #place: Matrix4 = new three.Matrix4();
+  readonly #projection: Matrix4 = new three.Matrix4();
+  readonly #view: Matrix4 = new three.Matrix4();
+
+  constructor(
+    lamps: number,
+    private readonly tableWidth: number,
+  ) {
+    const floats = { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter };
+    const flat = { ...floats, depthBuffer: false };
+    const sum = () => new three.WebGLRenderTarget(1, 1, { ...flat, format: three.RGFormat });
+    this.picture = new three.WebGLRenderTarget(tableWidth, 2, flat);
+    this.picture.scissorTest = true;
+    this.#surfaces = new three.WebGLRenderTarget(1, 1, floats);
+    this.#sums = Array.from({ length: lamps }, sum);
+    this.#spare = sum();
+    const textures = Array.from({ length: SUMS }, () => null);
+    this.#shares = new FullScreen(sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
+    this.#table = new FullScreen(COPY, { table: { value: null } });
+  }
+
+  /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
+  get viewport(): Vector4 {
+    return this.#viewport;
+  }
+
+  get width(): number {
+    return this.#surfaces.width;
+  }
+
+  get height(): number {
+    return this.#surfaces.height;
+  }
+
+  /** Takes the view of a camera into the renderer's present viewport; says whether it is another than before. */
+  see(renderer: WebGLRenderer, camera: Camera): boolean {
+    const viewport = renderer.getCurrentViewport(new three.Vector4());
+    const sameCamera = camera.matrixWorld.equals(this.#place) && camera.projectionMatrix.equals(this.#projection);
+    if (sameCamera && viewport.equals(this.#viewport)) return false;
+    this.#viewport.copy(viewport);
+    this.#place.copy(camera.matrixWorld);
+    this.#view.copy(camera.matrixWorldInverse);
+    this.#projection.copy(camera.projectionMatrix);
+    const bytes = BYTES_OF_A_SUM * viewport.z * viewport.w * (this.#sums.length + 1);
+    const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / bytes));
+    const [width, height] = [viewport.z, viewport.w].map((pixels) => Math.max(1, Math.floor(pixels * sharpness))) as [number, number];
+    for (const target of [this.#surfaces, this.#spare, ...this.#sums]) target.setSize(width, height);
+    this.picture.setSize(Math.max(this.tableWidth, Math.ceil(this.#sums.length / SUMS) * width), height + 1);
+    return true;
+  }
+
+  /** Draws what is seen anew. */
+  drawSurfaces(surfaces: Surfaces, root: Object3D, camera: Camera): void {
+    surfaces.renderer.setRenderTarget(this.#surfaces);
+    surfaces.draw(root, 'seen', (render) => render(camera));
+  }
+
+  /** Looks a map up for every pixel: adds a sample to a lamp's sums, or begins them with it. `soft`: filtered, as a lamp's only sample. */
+  add(renderer: WebGLRenderer, lamp: number, map: ShadowMap, first: boolean, soft: boolean): void {
+    const { point, range, sun } = map;
+    const axes = new three.Matrix3();
+    const [x, y, z] = point.axes.map((axis) => axis.clone().transformDirection(this.#view));
+    axes.set(x!.x, x!.y, x!.z, y!.x, y!.y, y!.z, z!.x, z!.y, z!.z);
+    this.#lookup(sun, soft).draw(renderer, this.#spare, {
+      surfaces: this.#surfaces.texture,
+      sums: this.#sums[lamp]!.texture,
+      depths: map.depths,
+      first,
+      projection: this.#projection,
+      axes,
+      point: (sun ? map.center : point.position).clone().applyMatrix4(this.#view),
+      normal: soft ? new three.Vector3() : point.normal.clone().transformDirection(this.#view),
+      bothSides: point.bothSides,
+      size: map.size,
+      range: new three.Vector2(...range),
+    });
+    [this.#sums[lamp], this.#spare] = [this.#spare, this.#sums[lamp]!];
+  }
+
+  /** Shows the shares as they are now. */
+  show(renderer: WebGLRenderer): void {
+    const { width, height } = this;
+    for (let layer = 0; layer * SUMS < this.#sums.length; layer++) {
+      const sums = Array.from({ length: SUMS }, (_, i): Texture => (this.#sums[layer * SUMS + i] ?? this.#spare).texture);
+      this.#part(layer * width, 1, width, height);
+      this.#shares.draw(renderer, this.picture, { surfaces: this.#surfaces.texture, sums, start: new three.Vector2(layer * width, 1) });
+    }
+  }
+
+  /** Shows the lamps as they are now. */
+  showTable(renderer: WebGLRenderer, table: Texture): void {
+    this.#part(0, 0, this.tableWidth, 1);
+    this.#table.draw(renderer, this.picture, { table });
+  }
+
+  dispose(): void {
+    for (const pass of [this.#shares, this.#table, ...this.#lookups.values()]) pass.dispose();
+    for (const target of [this.picture, this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
+  }
+
+  #part(x: number, y: number, width: number, height: number): void {
+    this.picture.viewport.set(x, y, width, height);
+    this.picture.scissor.set(x, y, width, height);
+  }
+
+  #lookup(sun: boolean, soft: boolean): FullScreen {
+    const key = `${sun}${soft}`;
+    const names = ['surfaces', 'sums', 'depths', 'first', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
+    const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
+    const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
+    const pass = this.#lookups.get(key) ?? new FullScreen(lookupShader, uniforms, defines);
+    this.#lookups.set(key, pass);
+    return pass;
+  }
+}

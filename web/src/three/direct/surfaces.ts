@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+import type { Camera, InstancedMesh, Material, Mesh, MeshStandardMaterial, Object3D, Scene, Side, SkinnedMesh, WebGLRenderer } from 'three';
+import { three } from './kit.js';
+
+/** What of a scene's meshes is drawn: those that cast shadows, from both sides, or those that are seen and not seen through. */
+export type Part = 'casters' | 'seen';
+
+const NOTHING = () => {};
+
+/**
+ * Draws the surfaces of somebody's scene by materials of its own: depths alone, or each surface's normal and distance. Cut-out
+ * materials stay cut out; forms that change, skeletons and instances are drawn as three.js has them.
+ */
+export class Surfaces {
+  /** Has the scene's children, and nothing of its background, fog and callbacks. */
+  readonly #scene: Scene;
+  readonly #hidden = new three.MeshBasicMaterial({ visible: false });
+  readonly #plain = new Map<string, Material>();
+  readonly #cutOut = new WeakMap<Material, Map<string, Material>>();
+  readonly #own = new Set<Material>();
+
+  constructor(readonly renderer: WebGLRenderer) {
+    this.#scene = new three.Scene();
+    this.#scene.matrixWorldAutoUpdate = false;
+  }
+
+  /** Draws all below `root` as often as `draw` calls back with a camera, whose matrices are as they are to be. */
+  draw(root: Object3D, part: Part, draw: (render: (camera: Camera) => void) => void): void {
+    const before: [Mesh, Material | Material[], Mesh['onBeforeRender']][] = [];
+    root.traverseVisible((object) => {
+      const mesh = object as Mesh;
+      if (mesh.material === undefined) return;
+      before.push([mesh, mesh.material, mesh.onBeforeRender]);
+      const { material } = mesh;
+      const own = (of: Material) => this.#materialOf(mesh, of, part);
+      mesh.material = Array.isArray(material) ? material.map(own) : own(material);
+      mesh.onBeforeRender = NOTHING;
+    });
+    this.#scene.children = root.children;
+    try {
+      draw((camera) => this.renderer.render(this.#scene, camera));
+    } finally {
+      for (const [mesh, material, onBeforeRender] of before) Object.assign(mesh, { material, onBeforeRender });
+      this.#scene.children = [];
+    }
+  }
+
+  dispose(): void {
+    for (const material of this.#own) material.dispose();
+    this.#hidden.dispose();
+  }
+
+  #materialOf(mesh: Mesh, of: Material, part: Part): Material {
+    const { transparent, transmission = 0, visible } = of as Material & { transmission?: number };
+    const drawn = part === 'casters' ? mesh.castShadow : !transparent && transmission === 0;
+    if (!mesh.isMesh || !visible || !drawn) return this.#hidden;
+    const key = part === 'casters' ? part : `${of.side}`;
+    const cut = of.alphaTest > 0 || of.alphaHash;
+    let known = this.#plain;
+    if (cut) {
+      known = this.#cutOut.get(of) ?? new Map<string, Material>();
+      this.#cutOut.set(of, known);
+    }
+    const material = known.get(key) ?? this.#create(part, part === 'casters' ? three.DoubleSide : of.side);
+    known.set(key, material);
+    if (cut) {
+      const { map, alphaMap, alphaTest, alphaHash } = of as MeshStandardMaterial;
+      Object.assign(material, { map, alphaMap, alphaTest, alphaHash });
+    }
+    return material;
+  }
+
+  #create(part: Part, side: Side): Material {
+    const material = new three.MeshDepthMaterial({ side, blending: three.NoBlending, colorWrite: part === 'seen' });
+    this.#own.add(material);
+    if (part === 'casters') return material;
+    material.onBeforeCompile = (shader) => {
+      shader.vertexShader = `varying vec3 vPlace;\n${shader.vertexShader.replace(/}\s*$/, 'vPlace = mvPosition.xyz; }')}`;
+      const packed = `vec3 n = normalize( cross( dFdx( vPlace ), dFdy( vPlace ) ) );
+        n /= abs( n.x ) + abs( n.y ) + abs( n.z );
+        vec2 folded = ( 1.0 - abs( n.yx ) ) * vec2( n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0 );
+        gl_FragColor = vec4( n.z < 0.0 ? folded : n.xy, - vPlace.z, 1.0 ); }`;
+      shader.fragmentShader = `varying vec3 vPlace;\n${shader.fragmentShader.replace(/}\s*$/, packed)}`;
+    };
+    return material;
+  }
+}
+
+/** A number that changes when a surface moves, changes its form, comes or goes. */
+export function signatureOf(root: Object3D): number {
+  let sum = 0;
+  let weight = 1;
+  const add = (numbers: ArrayLike<number>) => {
+    for (let i = 0; i < numbers.length; i++) sum += numbers[i]! * (weight = (weight * 1.618034) % 7);
+  };
+  root.traverseVisible((object) => {
+    const mesh = object as Mesh;
+    if (!mesh.isMesh) return;
+    const { geometry, matrixWorld, morphTargetInfluences, castShadow } = mesh;
+    add(matrixWorld.elements);
+    add([geometry.id, Number(castShadow)]);
+    if (morphTargetInfluences !== undefined) add(morphTargetInfluences);
+    const { skeleton, instanceMatrix } = object as Partial<SkinnedMesh> & Partial<InstancedMesh>;
+    if (skeleton?.boneMatrices) add(skeleton.boneMatrices);
+    if (instanceMatrix !== undefined) add([instanceMatrix.version]);
+  });
+  return sum;
+}
