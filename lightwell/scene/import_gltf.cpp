@@ -140,12 +140,9 @@ class Importer {
   /// Says of a file without any surface that it holds points, where it does.
   Result<void> refuse_points() const {
     for (const Json& mesh : member(scene_.document.json, "meshes"))
-      for (const Json& primitive : member(mesh, "primitives")) {
-        if (member(primitive, "mode") != 0) continue;
-        const bool splats = member(primitive, "extensions").contains("KHR_gaussian_splatting");
-        return fail("", std::string("holds ") + (splats ? "Gaussian splats" : "a point cloud") +
-                            " and no triangles; Lightwell takes meshes");
-      }
+      for (const Json& primitive : member(mesh, "primitives"))
+        if (member(primitive, "mode") == 0)
+          return fail("", "holds points and no triangles (a point cloud, Gaussian splats); Lightwell takes meshes");
     return {};
   }
 
