@@ -245,6 +245,10 @@ Result<std::unique_ptr<const World>> world_with_faces_turned(Scene& scene, int t
 }  // namespace
 
 Result<std::unique_ptr<const World>> world_facing_light(Scene& scene, int threads, Progress& progress, Report& report) {
+  for (Primitive& primitive : scene.primitives)
+    if (const size_t count = turn_faces_against_normals(primitive.mesh); count > 0)
+      report.warn(mesh_name(scene, primitive) +
+                  ": faces wound against the normals of their corners, turned round: " + std::to_string(count));
   LW_TRY(world, world_with_faces_turned(scene, threads, progress, report));
   turn_normals_to_faces(scene, report);
   return std::move(world);

@@ -12,6 +12,8 @@ namespace {
 
 /// Of a mesh's vertices: so many normals have to point the wrong way before all are turned.
 constexpr double nearly_all = 0.95;
+/// Of a mesh's faces: as many may be wound against their normals by mistake.
+constexpr double a_few = 0.05;
 
 /// An edge of a face between welded vertices a < b.
 struct Edge {
@@ -109,6 +111,20 @@ void turn_faces(Mesh& mesh, const std::vector<uint8_t>& marked) {
   const std::vector<Vec3f> fronts = smooth_normals(mesh);
   for (size_t i = 0; i < fronts.size(); i++)
     if (turned[i] && !kept[i] && dot(mesh.normals[i], fronts[i]) < 0) mesh.normals[i] = -mesh.normals[i];
+}
+
+size_t turn_faces_against_normals(Mesh& mesh) {
+  if (mesh.normals.empty()) return 0;
+  std::vector<size_t> against;
+  for (size_t i = 0; i < mesh.faces.size(); i++) {
+    const auto& [a, b, c] = mesh.faces[i];
+    const Vec3f front = cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]);
+    const auto opposed = [&](uint32_t corner) { return dot(mesh.normals[corner], front) < 0; };
+    if (opposed(a) && opposed(b) && opposed(c)) against.push_back(i);
+  }
+  if (static_cast<double>(against.size()) > a_few * static_cast<double>(mesh.faces.size())) return 0;
+  for (const size_t i : against) std::swap(mesh.faces[i][1], mesh.faces[i][2]);
+  return against.size();
 }
 
 bool turn_opposed_normals(Mesh& mesh) {

@@ -174,6 +174,21 @@ TEST(Turned, NormalsPointWhereTheFacesDo) {
       }
 }
 
+// A scan of which a program has left some faces the wrong way round; every corner still knows where the front is.
+TEST(Turned, AreFacesWoundAgainstTheirNormals) {
+  const Mesh right = turned(sphere(0.8f, 4));
+  Scene scene = scene_of(right, lambertian(0.6f));
+  Mesh& scan = scene.primitives[0].mesh;
+  scan.normals = smooth_normals(right);
+  mix(scan, 0.03f, 21);
+  ASSERT_NE(scan.faces, right.faces);
+  scene.environment.radiance = Vec3f::filled(1);
+  const Ready made = ready(scene);
+  EXPECT_EQ(scene.primitives[0].mesh.faces, right.faces);
+  ASSERT_EQ(made.warnings.size(), 1u);
+  EXPECT_NE(made.warnings[0].find("wound against the normals of their corners"), std::string::npos);
+}
+
 // Leaves whose normals are those of the crown: half of them point to a card's back, on purpose.
 TEST(Turned, NormalsOfACrownStay) {
   Scene scene;
