@@ -9,6 +9,7 @@
 #include "lightwell/cli/arguments.h"
 #include "lightwell/cli/number_text.h"
 #include "lightwell/cli/open_scene.h"
+#include "lightwell/packing/grids_extension.h"
 #include "lightwell/packing/pack_scene.h"
 #include "lightwell/render/exposure.h"
 #include "lightwell/scene/camera.h"
@@ -219,6 +220,17 @@ std::string name_of(Refinement refinement) {
   return {};
 }
 
+/// What was chosen for each grid.
+nlohmann::ordered_json grid_figures(const LightField::Layer& layer) {
+  const LightGrid& grid = layer.grid;
+  const GridDescription described{.shape = grid.shape, .contains = layer.contents};
+  return {{"nodes", grid.shape.count() + BrickNodes(grid.tree).nodes().size()},
+          {"cell", grid.shape.cell.e},
+          {"levels", grid.tree.levels()},
+          {"bricks", grid.tree.bricks().size()},
+          {"contains", to_json(std::span(&described, 1))["grids"][0]["contains"]}};
+}
+
 nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
   nlohmann::ordered_json figures = {
       {"triangles", bake.pack_statistics.triangles},
@@ -246,6 +258,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
       {"warnings", bake.report.warnings}};
   // Of no light there is nothing to be wrong by, and a 0 would look like praise.
   if (bake.dark) figures["estimated_error"] = figures["estimate"] = nullptr;
+  for (const LightField::Layer& layer : bake.field.layers()) figures["grids"].push_back(grid_figures(layer));
   if (bake.light_statistics.refinement) figures["refined_to"] = name_of(*bake.light_statistics.refinement);
   if (options.resume) figures["resumed_nodes"] = bake.resumed_nodes;
   return figures;

@@ -29,6 +29,8 @@ Meaning meaning_of(const std::string& key, Unit outer) {
       {"refined_to", {"cells of the light grid refined up to"}},
       {"resumed_nodes", {"nodes known from the run before"}},
       {"estimated_error", {"estimated error of the irradiance, root mean square", Unit::share}},
+      {"grids", {"light grids"}},
+      {"cell", {"cells in metres"}},
       {"estimate", {"of it", Unit::share}},
       {"surface", {"on surfaces", Unit::share}},
       {"free", {"in free space", Unit::share}},
@@ -56,6 +58,11 @@ std::string value_text(const Figures& value, Unit unit) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_string()) return value.get<std::string>();
   std::string text;
+  if (value.is_array()) {
+    const std::string between = !value.empty() && value[0].is_object() ? "; " : " ";
+    for (const Figures& item : value) text += (text.empty() ? "" : between) + value_text(item, unit);
+    return text;
+  }
   for (const auto& [key, item] : value.items()) {
     const Meaning meaning = meaning_of(key, unit);
     text += (text.empty() ? "" : ", ") + meaning.name + " " + value_text(item, meaning.unit);

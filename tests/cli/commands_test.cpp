@@ -72,8 +72,24 @@ TEST_F(Commands, BakeReportsTheContractedKeys) {
     EXPECT_TRUE(figures.contains(key)) << key;
   EXPECT_EQ(keys_of(figures["seconds"]), (std::vector<std::string>{"geometry", "import", "light", "write"}));
   EXPECT_EQ(keys_of(figures["bytes"]), (std::vector<std::string>{"geometry", "light", "opening", "texture"}));
+  EXPECT_EQ(keys_of(figures["estimate"]), (std::vector<std::string>{"free", "surface"}));
   EXPECT_EQ(figures["pack_bytes"], fs::file_size(path("a.glb")));
   EXPECT_EQ(figures["photons"], 20000);
+}
+
+// What was chosen for a grid is said by `bake`, and is what `info` finds.
+TEST_F(Commands, GridsAreDescribed) {
+  const json baked = json::parse(run("bake box-small -o " + path("a.glb") + " --budget 12k --quiet --json").out);
+  const json found = json::parse(run("info " + path("a.glb") + " --json").out)["grids"][0];
+  const json& grid = baked["grids"][0];
+  EXPECT_EQ(keys_of(grid), (std::vector<std::string>{"bricks", "cell", "contains", "levels", "nodes"}));
+  EXPECT_GT(grid["bricks"], 0);
+  EXPECT_EQ(grid["nodes"], baked["nodes"]);
+  EXPECT_EQ(found["all_nodes"], grid["nodes"]);
+  EXPECT_EQ(found["bricks"], grid["bricks"]);
+  EXPECT_EQ(found["levels"], grid["levels"]);
+  for (const char* where : {"surface", "free"}) EXPECT_NEAR(found["estimate"][where], baked["estimate"][where], 1e-6);
+  EXPECT_NEAR(found["bytes_per_node"], baked["bytes"]["light"].get<double>() / grid["nodes"].get<double>(), 0.01);
 }
 
 TEST_F(Commands, EveryKindOfGridIsPackedAndRead) {
