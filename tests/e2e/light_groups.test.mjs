@@ -22,6 +22,8 @@ const CHANNELS = { Red: 0, Blue: 2, Globe: 1 };
 const ROUNDING = 0.012;
 
 const CLIPPED = 0.95;
+/** The narrowest that the settings are made for. */
+const PHONE = { width: 320, height: 480 };
 
 const folder = temporaryFolder();
 const browser = await forAllTests(launch());
@@ -117,6 +119,7 @@ for (const kind of Object.keys(PACKS))
 
 test('the settings have a slider for each group', async (t) => {
   const { page } = await open(t, 'refined');
+  await page.setViewportSize(PHONE);
   await page.evaluate(() => (document.querySelector('#panel').open = true));
   await page.getByText('Settings').click();
   const slider = page.getByLabel(/^Blue/);
@@ -140,6 +143,7 @@ test('the sky’s own light is dimmed apart from what surfaces reflect', async (
   const { page, errors } = await forTest(t, openPage(browser, { width: 160, height: 120 }));
   await page.goto(server.url);
   await complete(page);
+  await page.setViewportSize(PHONE);
   await page.evaluate(() => (document.querySelector('#panel').open = true));
   await page.getByText('Settings').click();
   const slider = page.getByLabel(/^The sky/);
