@@ -105,7 +105,8 @@ Result<void> verify_textures(const OpenedPack& pack) {
   if (image_of_stream.size() != refined_of_image.size()) return fail(texture_extension, "two streams bring one image");
   // Either all textures of an image are refined, or none.
   for (size_t i = 0; i < textures.size(); i++)
-    if (refined_of_image.contains(image_of(textures[i])) && extension(textures[i], texture_extension).is_null())
+    if (const Json& texture = element(textures, i);
+        refined_of_image.contains(image_of(texture)) && extension(texture, texture_extension).is_null())
       return fail(element_name("textures", i), "shows an image that a stream brings, but does not say so");
   return {};
 }
