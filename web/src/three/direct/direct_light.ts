@@ -227,6 +227,7 @@ export class DirectLight {
         this.#mapsTime = performance.now();
         Object.assign(shadow, { form: now, count: -1 });
       }
+      if (this.#enough(shadow) > 0) this.#scratchMap(shadow.middle.sun);
       if (shadow.count >= 0) continue;
       this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
       shadow.count = 0;
@@ -265,7 +266,9 @@ export class DirectLight {
     const texels = shining.flatMap((shadow) => texelsOf(placed(shadow.lamp), space, this.#shadows.indexOf(shadow)));
     const data = this.#table.image.data as Float32Array;
     const { width, height, viewport } = this.#shares;
-    data.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...texels]);
+    const now = Float32Array.of(shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...texels);
+    if (now.every((number, i) => number === data[i])) return;
+    data.set(now);
     this.#table.needsUpdate = true;
   }
 
@@ -290,11 +293,20 @@ export class DirectLight {
     if (after < Infinity) this.#task.request();
   }
 
+  /** What samples are drawn into, one after another. */
+  #scratchMap(sun: boolean): ShadowMap {
+    let map = this.#scratch.get(sun);
+    if (map === undefined) {
+      map = new ShadowMap(sun, sun ? SUN_SIZE : CUBE_SIZE);
+      map.allocate(this.#surroundings.renderer);
+      this.#scratch.set(sun, map);
+    }
+    return map;
+  }
+
   #sample(shadow: Shadow): void {
     const { renderer } = this.#surroundings;
-    const sun = shadow.middle.sun;
-    const map = this.#scratch.get(sun) ?? new ShadowMap(sun, sun ? SUN_SIZE : CUBE_SIZE);
-    this.#scratch.set(sun, map);
+    const map = this.#scratchMap(shadow.middle.sun);
     const form = placed(shadow.lamp);
     this.#drawMap(map, form, pointOf(form, shadow.count));
     this.#shares.add(renderer, this.#shadows.indexOf(shadow), map, shadow.count === 0, false);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { IUniform, Mesh, RawShaderMaterial, WebGLRenderer, WebGLRenderTarget } from 'three';
+import type { BufferGeometry, IUniform, Mesh, RawShaderMaterial, WebGLRenderer, WebGLRenderTarget } from 'three';
 import { three } from './kit.js';
 
 const CORNERS = new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]);
 const VERTEX_SHADER = 'in vec3 position;void main(){gl_Position=vec4(position,1.0);}';
+
+/** What all passes draw: one triangle over everything. */
+export const createScreen = (): BufferGeometry =>
+  new three.BufferGeometry().setAttribute('position', new three.BufferAttribute(CORNERS, 3));
 
 /** A fragment shader over all of a target, or over the part that its viewport says. */
 export class FullScreen {
@@ -12,11 +16,10 @@ export class FullScreen {
   readonly #camera = new three.OrthographicCamera();
   readonly material: RawShaderMaterial;
 
-  constructor(fragmentShader: string, uniforms: Record<string, IUniform>, defines: Record<string, string> = {}) {
-    const geometry = new three.BufferGeometry().setAttribute('position', new three.BufferAttribute(CORNERS, 3));
+  constructor(screen: BufferGeometry, fragmentShader: string, uniforms: Record<string, IUniform>, defines: Record<string, string> = {}) {
     const state = { depthTest: false, depthWrite: false, blending: three.NoBlending, glslVersion: three.GLSL3 };
     this.material = new three.RawShaderMaterial({ ...state, vertexShader: VERTEX_SHADER, fragmentShader, uniforms, defines });
-    this.#mesh = new three.Mesh(geometry, this.material);
+    this.#mesh = new three.Mesh(screen, this.material);
     this.#mesh.frustumCulled = false;
     this.#scene.add(this.#mesh);
   }
@@ -29,7 +32,6 @@ export class FullScreen {
   }
 
   dispose(): void {
-    this.#mesh.geometry.dispose();
     this.material.dispose();
   }
 }

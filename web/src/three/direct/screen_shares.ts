@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera, Matrix4, Object3D, Texture, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
+import type { BufferGeometry, Camera, Matrix4, Object3D, Texture, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
 import lookupShader from '../../../../shaders/shadow_lookup.glsl';
 import sharesShader from '../../../../shaders/shadow_shares.glsl';
-import { FullScreen } from './full_screen.js';
+import { createScreen, FullScreen } from './full_screen.js';
 import { three } from './kit.js';
 import type { ShadowMap } from './shadow_map.js';
 import type { Surfaces } from './surfaces.js';
@@ -24,6 +24,7 @@ export class ScreenShares {
   readonly #sums: WebGLRenderTarget[];
   /** The sums are added up from one target into another, which then takes its place. */
   #spare: WebGLRenderTarget;
+  readonly #screen: BufferGeometry = createScreen();
   readonly #lookups = new Map<string, FullScreen>();
   readonly #shares: FullScreen;
   readonly #table: FullScreen;
@@ -45,8 +46,8 @@ export class ScreenShares {
     this.#sums = Array.from({ length: lamps }, sum);
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
-    this.#shares = new FullScreen(sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
-    this.#table = new FullScreen(COPY, { table: { value: null } });
+    this.#shares = new FullScreen(this.#screen, sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
+    this.#table = new FullScreen(this.#screen, COPY, { table: { value: null } });
   }
 
   /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
@@ -74,7 +75,11 @@ export class ScreenShares {
     const bytes = BYTES_OF_A_SUM * viewport.z * viewport.w * (this.#sums.length + 1);
     const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / bytes));
     const [width, height] = [viewport.z, viewport.w].map((pixels) => Math.max(1, Math.floor(pixels * sharpness))) as [number, number];
-    for (const target of [this.#surfaces, this.#spare, ...this.#sums]) target.setSize(width, height);
+    for (const target of [this.#surfaces, this.#spare, ...this.#sums]) {
+      target.setSize(width, height);
+      // Their memory is taken now, so that no later frame waits for that.
+      renderer.initRenderTarget(target);
+    }
     this.picture.setSize(Math.max(this.tableWidth, Math.ceil(this.#sums.length / SUMS) * width), height + 1);
     return true;
   }
@@ -126,6 +131,7 @@ export class ScreenShares {
   dispose(): void {
     for (const pass of [this.#shares, this.#table, ...this.#lookups.values()]) pass.dispose();
     for (const target of [this.picture, this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
+    this.#screen.dispose();
   }
 
   #part(x: number, y: number, width: number, height: number): void {
@@ -138,7 +144,7 @@ export class ScreenShares {
     const names = ['surfaces', 'sums', 'depths', 'first', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
     const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
-    const pass = this.#lookups.get(key) ?? new FullScreen(lookupShader, uniforms, defines);
+    const pass = this.#lookups.get(key) ?? new FullScreen(this.#screen, lookupShader, uniforms, defines);
     this.#lookups.set(key, pass);
     return pass;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera, DepthTexture, Object3D, Sphere, Vector3, WebGLRenderTarget } from 'three';
+import type { Camera, DepthTexture, Object3D, Sphere, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
 import { three } from './kit.js';
 import type { PlacedLamp } from './lamp.js';
 import type { LampPoint } from './lamp_points.js';
@@ -36,6 +36,12 @@ export class ShadowMap {
     this.#target = new three.WebGLRenderTarget(width, height, { format: three.RedFormat, generateMipmaps: false });
     this.#target.depthTexture = new three.DepthTexture(width, height, three.UnsignedIntType);
     this.#target.scissorTest = true;
+  }
+
+  /** Takes its memory now, so that no later frame waits for that. */
+  allocate(renderer: WebGLRenderer): void {
+    renderer.initRenderTarget(this.#target);
+    renderer.initTexture(this.depths);
   }
 
   get depths(): DepthTexture {
