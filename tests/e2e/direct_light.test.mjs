@@ -5,23 +5,15 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { launch, openPage } from './browser.mjs';
-import { forAllTests, forTest } from './lifetime.mjs';
+import { launch } from './browser.mjs';
+import { forAllTests } from './lifetime.mjs';
 import { bake, BIN, temporaryFolder } from './packs.mjs';
 import { room, sphere, writeScene } from './scenes.mjs';
-import { startStaticServer } from './static_server.mjs';
-import { CLIENT, scriptPage } from './test_page.mjs';
+import { openScript } from './test_page.mjs';
 import { complete } from './view.mjs';
 
 const folder = temporaryFolder();
 const browser = await forAllTests(launch());
-
-async function openScript(t, path, { query = '', ...routes } = {}) {
-  const server = await forTest(t, startStaticServer({ ...(await scriptPage(path)), ...CLIENT, ...routes }));
-  const opened = await forTest(t, openPage(browser));
-  await opened.page.goto(server.url + query);
-  return opened;
-}
 
 const subtract = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -62,7 +54,7 @@ const SPHERE = { kind: 'sphere', center: [0, 1, 0], radius: 0.4, radiance: [1, 1
 const EXACT = 2e-3;
 
 test('a rectangle and a sphere give the irradiance of their whole surface, above the horizon and half below it', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.irradiance);
   const measured = (...values) => page.evaluate((all) => irradiance(...all), values);
   const places = [
@@ -98,7 +90,7 @@ const PENUMBRA = { 64: [0.05, 0.01], 256: [0.02, 0.005] };
 const EDGE = 0.02;
 
 test('the shadow of a sun has a sharp edge', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.penumbra);
   const { shares } = await page.evaluate((values) => penumbra(...values), [SUN, 0.48, 32]);
   shares.forEach((share, i) => {
@@ -109,7 +101,7 @@ test('the shadow of a sun has a sharp edge', async (t) => {
 });
 
 test('the penumbra of a square lamp behind an edge is that of the closed form', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.penumbra);
   const lamp = { kind: 'rectangle', center: [0, 2, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.5], radiance: [1, 1, 1] };
   for (const [samples, [mostError, mostBias]] of Object.entries(PENUMBRA)) {
@@ -124,7 +116,7 @@ test('the penumbra of a square lamp behind an edge is that of the closed form', 
 });
 
 test('surfaces are lit on the side that is seen, be it their back', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.fromBehind);
   const [front, back] = await page.evaluate((lamp) => fromBehind(lamp), RECTANGLE);
   assert.ok(front > 0.1, `${front}`);
@@ -134,7 +126,7 @@ test('surfaces are lit on the side that is seen, be it their back', async (t) =>
 
 /** Opens a pack of which `settle` lets all samples come, as many a frame as the GPU can take, and draws. */
 async function openPack(t, pack, query = '?light=direct') {
-  const opened = await openScript(t, 'tests/e2e/pages/lambert.ts', { query, '/pack.lw.glb': pack });
+  const opened = await openScript(t, browser, 'tests/e2e/pages/lambert.ts', { query, '/pack.lw.glb': pack });
   await complete(opened.page);
   await opened.page.evaluate(() => document.querySelector('lightwell-view').pack.setShadows('soft', 10_000));
   await settled(opened.page);
@@ -213,7 +205,7 @@ const POINT = { kind: 'point', center: [0, 2, 0], normal: [0, -1, 0], intensity:
 const SPOT = { ...POINT, kind: 'spot', innerConeAngle: 0.1, outerConeAngle: 0.5 };
 
 test('lamps follow the scale of their pack, shadows and all', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.scaled);
   for (const lamp of [RECTANGLE, SPHERE, POINT, SPOT].map((definition) => ({ ...definition, center: [0, 2, 0] }))) {
     const [whole, half] = await page.evaluate((of) => [scaled(of, 1), scaled(of, 0.5)], lamp);
@@ -226,7 +218,7 @@ test('lamps follow the scale of their pack, shadows and all', async (t) => {
 });
 
 test('an object of the user’s own casts a shadow, which goes where it goes', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/direct_light.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.ownObject);
   for (const lamp of [POINT, SPOT, SUN]) {
     const [without, below, aside] = await page.evaluate((of) => ownObject(of), lamp);

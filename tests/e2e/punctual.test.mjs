@@ -5,12 +5,11 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { launch, openPage } from './browser.mjs';
-import { forAllTests, forTest } from './lifetime.mjs';
+import { launch } from './browser.mjs';
+import { forAllTests } from './lifetime.mjs';
 import { bake, BIN, temporaryFolder } from './packs.mjs';
 import { room, writeScene } from './scenes.mjs';
-import { startStaticServer } from './static_server.mjs';
-import { CLIENT, scriptPage } from './test_page.mjs';
+import { openScript } from './test_page.mjs';
 import { complete } from './view.mjs';
 
 /** Of floats in a shader, some of which take the difference of cosines that are nearly the same. */
@@ -23,18 +22,11 @@ const folder = temporaryFolder();
 const lightwell = (...options) => execFileSync(`${BIN}/lightwell`, [...options, '--quiet'], { encoding: 'utf8' });
 const browser = await forAllTests(launch());
 
-async function openScript(t, path, { query = '', ...routes } = {}) {
-  const server = await forTest(t, startStaticServer({ ...(await scriptPage(path)), ...CLIENT, ...routes }));
-  const opened = await forTest(t, openPage(browser));
-  await opened.page.goto(server.url + query);
-  return opened;
-}
-
 const near = (actual, expected, what) =>
   assert.ok(Math.abs(actual - expected) <= ROUNDING * Math.max(1, expected), `${what}: ${actual} instead of ${expected}`);
 
 test('irradiance is that of KHR_lights_punctual at a distance and in a penumbra', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/punctual.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/punctual.ts');
   await page.waitForFunction(() => globalThis.ofSpot);
   const lamp = (definition, distance, angle) => page.evaluate((values) => ofLamp(...values), [definition, distance, angle]);
   const window = (distance, range) => Math.max(0, 1 - (distance / range) ** 4) / distance ** 2;
@@ -54,7 +46,7 @@ test('irradiance is that of KHR_lights_punctual at a distance and in a penumbra'
 });
 
 test('lights of the user’s own beside them fade as three.js has it', async (t) => {
-  const { page, errors } = await openScript(t, 'tests/e2e/pages/punctual.ts');
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/punctual.ts');
   await page.waitForFunction(() => globalThis.ofSpot);
   await page.evaluate(() => ofLamp({ range: 1 }, 0.8));
   near(await page.evaluate(() => ofPoint(0.8, 1)), 0.5904 ** 2 / 0.64, 'a point');
@@ -93,7 +85,7 @@ for (const [name, { lamps, size, samples }] of Object.entries(SCENES))
     writeFileSync(scene, JSON.stringify(gltf));
     const pack = bake(scene, `${folder}/${name}.lw.glb`);
     const routes = { query: '?light=direct', '/pack.lw.glb': pack };
-    const { page, errors } = await openScript(t, 'tests/e2e/pages/lambert.ts', routes);
+    const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/lambert.ts', routes);
     await page.setViewportSize({ width: size[0], height: size[1] });
     await complete(page);
     const url = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());

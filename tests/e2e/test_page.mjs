@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { glslPlugin } from '../../web/glsl_plugin.mjs';
+import { openPage } from './browser.mjs';
 import { build, ROOT, WEB } from './dependencies.mjs';
+import { forTest } from './lifetime.mjs';
+import { startStaticServer } from './static_server.mjs';
 
 /** Routes of Lightwell's own page with the pack of a URL. */
 export function viewerPage(url) {
@@ -33,6 +36,14 @@ export async function scriptPage(path) {
     '/': { text: html, type: 'text/html' },
     '/script.js': { text: await bundle(path), type: 'text/javascript' },
   };
+}
+
+/** Opens, for one test, a page that runs a bundled script and finds Lightwell's client; `routes` are more of them. */
+export async function openScript(t, browser, path, { query = '', ...routes } = {}) {
+  const server = await forTest(t, startStaticServer({ ...(await scriptPage(path)), ...CLIENT, ...routes }));
+  const opened = await forTest(t, openPage(browser));
+  await opened.page.goto(server.url + query);
+  return opened;
 }
 
 /** Routes of a page at / whose body has <lightwell-view> in it; `script` is where its script lies. */

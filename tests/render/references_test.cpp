@@ -31,7 +31,7 @@ Picture take(const Scene& scene, const Camera& camera, int samples, uint64_t see
 
 // Blocks of 32 x 32 pixels. Of those on the lamp, and beside them, nothing is taken: a pixel's filter there decides.
 TEST(References, CornellBox) {
-  if (!std::filesystem::exists(references)) GTEST_SKIP() << references << " is not there";
+  if (!std::filesystem::exists(references)) GTEST_SKIP() << "left out: " << references << " is not here";
   Report report;
   Scene scene = load_scene((references / "cornell-box/cornell-box.glb").string(), {}, report).value();
   // In Mitsuba all surfaces are diffuse; glTF's have gloss unless they say otherwise.
@@ -71,7 +71,7 @@ TEST(References, CornellBox) {
 
 // A convex surface under a sky of radiance 1 reflects its reflectance, and so has the picture.
 TEST(References, Plane) {
-  if (!std::filesystem::exists(references)) GTEST_SKIP() << references << " is not there";
+  if (!std::filesystem::exists(references)) GTEST_SKIP() << "left out: " << references << " is not here";
   Report report;
   Scene scene = load_scene((references / "cornell-box/meshes/cbox_floor.obj").string(), {}, report).value();
   const Vec3f reflectance{{0.885809f, 0.698859f, 0.666422f}};
