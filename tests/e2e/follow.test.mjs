@@ -9,9 +9,14 @@ import { forAllTests, forTest } from './lifetime.mjs';
 import { temporaryFolder, writeSamplePack } from './packs.mjs';
 import { room, sphere, writeScene } from './scenes.mjs';
 import { startServe } from './servers.mjs';
-import { complete, loaded } from './view.mjs';
+import { startSlowRelay } from './slow_relay.mjs';
+import { complete, loaded, pauseAfter, paused } from './view.mjs';
 
 const browser = await forAllTests(launch());
+
+/** Bytes a second: all of the file would come before the page can be told to wait. */
+const SLOW = 100_000;
+
 const VIEW = { theta: 0.5, phi: 1.25, radius: 2.5, target: [0.1, 0.2, 0.3] };
 
 /** A room of so many balls, written as programs write: beside its place first. */
@@ -75,12 +80,11 @@ test('a file that is replaced while it streams is shown in the same view', async
   const folder = temporaryFolder();
   writeSamplePack(`${folder}/a.lw.glb`, 200_000);
   const server = await forTest(t, startServe(`${folder}/a.lw.glb`));
-  const { page } = await forTest(t, openPage(browser, { init: `addEventListener('DOMContentLoaded', () => {
-    const view = document.querySelector('lightwell-view');
-    view.addEventListener('load', () => view.pause(), { once: true });
-  });` }));
-  await page.goto(server.url);
+  const relay = await forTest(t, startSlowRelay(server.url, SLOW));
+  const { page } = await forTest(t, openPage(browser, { init: pauseAfter(100_000) }));
+  await page.goto(relay.url);
   await loaded(page);
+  await paused(page);
   await page.evaluate((wanted) => (document.querySelector('lightwell-view').view = wanted), VIEW);
   const before = await view(page);
   writeSamplePack(`${folder}/b.lw.glb`, 100_000);
