@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decodes a stream of any kind, codec and bytes, given as a case (tests/asset/asset_case.h), with a small memory
-// budget: the ranges that it delivers lie inside the buffers that it has announced.
+// Decodes a stream of any kind, codec and bytes, and bricks that go with it, given as a case
+// (tests/asset/asset_case.h), with a small memory budget: the ranges that it delivers lie inside the buffers that it
+// has announced.
 #include "lightwell/base/assert.h"
 #include "tests/asset/asset_case.h"
 
@@ -33,18 +34,26 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   AssetContext context;
   context.budget = most_bytes;
   if (one.parts.size() > 2) context.bin = one.parts[2];
-  auto opened = open_asset(directory_of(one), 0, context);
-  if (!opened) return 0;
-  AssetDecoder& decoder = **opened;
-  const auto announced = decoder.announce();
+  const Directory directory = directory_of(one);
+  std::vector<std::unique_ptr<AssetDecoder>> decoders;
+  for (uint32_t stream = 0; stream < directory.streams.size(); stream++) {
+    auto opened = open_asset(directory, stream, context);
+    if (!opened) return 0;
+    decoders.push_back(std::move(*opened));
+  }
+  AssetDecoder& first = *decoders.front();
+  const auto announced = first.announce();
   const MeshUpdate mesh = announced ? std::get<MeshUpdate>(*announced) : MeshUpdate();
+  LW_ASSERT(first.accepts());
+  size_t turn = 0;
   for (size_t i = 3; i < one.parts.size(); i++) {
+    if (first.complete()) turn = (turn + 1) % decoders.size();
+    AssetDecoder& decoder = *decoders[turn];
     const uint64_t before = decoder.added();
-    LW_ASSERT(decoder.accepts());
     const bool intact = decoder.append(one.parts[i]).has_value();
     LW_ASSERT(decoder.added() >= before);
-    decoder.settle();
-    take_all(decoder, mesh);
+    first.settle();
+    take_all(first, mesh);
     if (!intact) break;
   }
   return 0;

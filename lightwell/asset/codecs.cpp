@@ -19,6 +19,7 @@ struct Codec {
 constexpr Codec codecs[] = {
     {StreamKind::light, light_codec_slices, open_light_slices},
     {StreamKind::light, light_codec_lattice, open_light_lattice},
+    {StreamKind::bricks, bricks_codec_lattice, open_light_bricks},
     {StreamKind::mesh, mesh_codec_splits, open_mesh_splits},
     {StreamKind::texture, texture_codec_file, open_texture_file},
 };
@@ -42,7 +43,7 @@ Result<void> AssetContext::spend(uint64_t bytes) {
 }
 
 Result<std::unique_ptr<AssetDecoder>> open_asset(const Directory& directory, uint32_t stream, AssetContext& context) {
-  auto decoder = open({directory.streams[stream], asset_of_stream(stream), context});
+  auto decoder = open({directory, directory.streams[stream], asset_of_stream(stream), context});
   if (!decoder) return fail(in_element(std::move(decoder.error()), "stream " + std::to_string(stream)));
   return decoder;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "lightwell/asset/asset.h"
@@ -9,11 +10,14 @@
 
 namespace lightwell {
 
+class LatticeDecoder;
+
 /// The state that the decoders of a pack share.
 struct AssetContext {
   Bytes bin;                            ///< the data of the opening's BIN chunk
   Fill fill = Fill::push_pull;          ///< how nodes of a light grid that have not arrived are filled
   uint64_t budget = uint64_t(3) << 30;  ///< bytes left for buffers, out of a WebAssembly module's 4 GiB
+  std::map<uint32_t, std::shared_ptr<LatticeDecoder>> lattices{};  ///< of the light streams that are open, by stream
 
   /// Takes bytes from the budget; fails when fewer are left.
   Result<void> spend(uint64_t bytes);
@@ -36,12 +40,14 @@ Result<std::unique_ptr<Kind>> open_asset_as(const Directory& directory, size_t s
 
 /// The arguments of the function that opens a codec.
 struct AssetSource {
+  const Directory& directory;
   const StreamEntry& entry;
-  uint32_t asset;
+  uint32_t asset;  ///< the number of the stream
   AssetContext& context;
 };
 
-// Each has a file of its own: light_lattice.cpp, light_slices.cpp, mesh_splits.cpp, texture_file.cpp.
+// Each has a file of its own: light_bricks.cpp, light_lattice.cpp, light_slices.cpp, mesh_splits.cpp, texture_file.cpp.
+Result<std::unique_ptr<AssetDecoder>> open_light_bricks(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_light_lattice(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_light_slices(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_mesh_splits(const AssetSource& source);

@@ -4,7 +4,7 @@
 namespace lightwell {
 
 bool LightAsset::settled() const {
-  return received() == settled_ || (received() < settled_ + settled_ / 8 && !complete());
+  return received() == settled_ || (received() < settled_ + settled_ / 8 && received() < total());
 }
 
 bool LightAsset::settle() {

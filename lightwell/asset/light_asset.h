@@ -24,7 +24,7 @@ class LightAsset : public AssetDecoder {
   virtual size_t received() const = 0;
 
   uint64_t added() const final { return received(); }
-  bool complete() const final { return received() == total(); }
+  bool complete() const override { return received() == total(); }
   /// False once an eighth more nodes are known than at the last settle(), or all are. This spreads the cost of filling
   /// over the stream, however small its blocks are.
   bool settled() const final;

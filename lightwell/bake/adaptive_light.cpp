@@ -12,6 +12,8 @@
 namespace lightwell {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// Rounds of dividing, each by what the one before has left; and the finest level.
 constexpr int rounds = 6;
 constexpr int finest_level = 3;
@@ -130,7 +132,11 @@ size_t stream_bytes(const LightGrid& grid) {
   ByteWriter parameters;
   stream->layout.write(parameters);
   size_t bytes = parameters.size();
-  for (const LightBundle& bundle : stream->bundles) bytes += bundle.payload.size() + bytes_of_a_block;
+  const auto add = [&](const std::vector<LightBundle>& bundles) {
+    for (const LightBundle& bundle : bundles) bytes += bundle.payload.size() + bytes_of_a_block;
+  };
+  add(stream->bundles);
+  std::ranges::for_each(stream->regions, add);
   return bytes;
 }
 
@@ -217,7 +223,7 @@ Result<LightGrid> AdaptiveLight::relit(const LightGrid& like, const GatheredLigh
   for (size_t node = 0; node < like.valid.size(); node++)
     nodes.insides[node] = insides_of(node_weight(like.valid[node]));
   AdaptiveLight relit(light, like.shape, std::move(nodes), threads);
-  LW_CHECK(relit.divide({like.tree.bricks().begin(), like.tree.bricks().end()}, progress));
+  LW_CHECK(relit.divide(like.tree.bricks(), progress));
   for (const BrickNode& node : relit.brick_nodes_.nodes())
     relit.gathered_.at(key_of(relit.tree_.bricks()[node.brick], node.point)).insides =
         insides_of(like.bricks[node.brick][static_cast<size_t>(node.point)].weight);
@@ -226,7 +232,7 @@ Result<LightGrid> AdaptiveLight::relit(const LightGrid& like, const GatheredLigh
   return grid;
 }
 
-Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& progress) {
+Result<void> AdaptiveLight::divide(std::span<const Brick> bricks, Progress& progress) {
   for (const Brick& brick : bricks) tree_.add(brick);
   brick_nodes_ = BrickNodes(tree_);
   sides_.follow(shape_, tree_, threads_);
@@ -253,6 +259,23 @@ Result<void> AdaptiveLight::divide(const std::vector<Brick>& bricks, Progress& p
     nodes_.rays += found[i].rays;
   }
   follow_links();
+  return {};
+}
+
+/// Divides as many as there is time for, a few first to learn how long they take.
+Result<void> AdaptiveLight::divide_until(std::span<const Brick> bricks, const RefinementOptions& options,
+                                         Progress& progress) {
+  if (options.deadline == Clock::time_point::max()) return divide(bricks, progress);
+  size_t piece = 64;
+  while (!bricks.empty() && Clock::now() < options.deadline) {
+    piece = std::min(piece, bricks.size());
+    const Clock::time_point start = Clock::now();
+    LW_CHECK(divide(bricks.first(piece), progress));
+    bricks = bricks.subspan(piece);
+    const auto took = std::max<Clock::duration>(Clock::now() - start, std::chrono::milliseconds(1));
+    const auto pieces_left = std::max<Clock::rep>((options.deadline - Clock::now()) / took, 0);
+    piece *= std::clamp<size_t>(static_cast<size_t>(pieces_left), 1, 4);
+  }
   return {};
 }
 
@@ -306,7 +329,8 @@ LightGrid AdaptiveLight::best_grid(const TestPoints& points, NodeRule& rule) con
   return another;
 }
 
-Result<Refined> AdaptiveLight::refine(const TestPoints& points, const RefinementOptions& options, Progress& progress) {
+Result<Refined> AdaptiveLight::refine(const TestPoints& points, const TestPoints& judge,
+                                      const RefinementOptions& options, Progress& progress) {
   NodeRule rule = options.rule;
   const size_t coarse = stream_bytes(grid(rule));
   const size_t addable = options.most_bytes - std::min(coarse, options.most_bytes);
@@ -314,11 +338,11 @@ Result<Refined> AdaptiveLight::refine(const TestPoints& points, const Refinement
   Refinement end = Refinement::to_budget;
   for (int round = 1; round <= rounds; round++) {
     const LightGrid grid = best_grid(points, rule);
-    if (points.error(grid) <= options.target_error) {
+    if (judge.error(grid) <= options.target_error) {
       end = Refinement::to_target;
       break;
     }
-    if (std::chrono::steady_clock::now() >= options.deadline) {
+    if (Clock::now() >= options.deadline) {
       end = Refinement::to_deadline;
       break;
     }
@@ -332,7 +356,7 @@ Result<Refined> AdaptiveLight::refine(const TestPoints& points, const Refinement
       end = Refinement::to_finest;
       break;
     }
-    LW_CHECK(divide(worst, progress));
+    LW_CHECK(divide_until(worst, options, progress));
   }
   best_grid(points, rule);
   keep_within(options, rule);

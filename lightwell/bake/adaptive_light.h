@@ -44,9 +44,10 @@ class AdaptiveLight {
   /// `light` must outlive this; `nodes` is the light of the grid's own nodes.
   AdaptiveLight(const GatheredLight& light, const GridShape& shape, NodeLight nodes, int threads);
 
-  /// Adds bricks where the grid errs most at `points`. The same for any number of threads, unless the deadline ends it.
-  /// Fails when `progress` asks to stop.
-  Result<Refined> refine(const TestPoints& points, const RefinementOptions& options, Progress& progress);
+  /// Adds bricks where the grid errs most at `points`, until it errs little enough at `judge`. The same for any number
+  /// of threads, unless the deadline ends it. Fails when `progress` asks to stop.
+  Result<Refined> refine(const TestPoints& points, const TestPoints& judge, const RefinementOptions& options,
+                         Progress& progress);
 
   /// The grid of which the nodes of a rule are valid.
   LightGrid grid(const NodeRule& rule) const;
@@ -68,7 +69,8 @@ class AdaptiveLight {
   };
 
   std::vector<Brick> worst_bricks(const TestPoints& points, const LightGrid& grid, size_t count) const;
-  Result<void> divide(const std::vector<Brick>& bricks, Progress& progress);
+  Result<void> divide(std::span<const Brick> bricks, Progress& progress);
+  Result<void> divide_until(std::span<const Brick> bricks, const RefinementOptions& options, Progress& progress);
   void follow_links();
   void keep_within(const RefinementOptions& options, const NodeRule& rule);
   LightGrid best_grid(const TestPoints& points, NodeRule& rule) const;

@@ -99,7 +99,7 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
     points.clear();
     for (const Estimate& estimate : estimates) points.push_back(estimate.point());
     keep_lit(points);
-    if (test.noise() <= options.most_noise) break;
+    if (test.noise() <= options.most_noise || std::chrono::steady_clock::now() >= options.deadline) break;
   }
   return test;
 }

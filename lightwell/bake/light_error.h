@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -17,6 +18,8 @@ struct TestPointOptions {
   size_t free_points = 0;
   int rays = 1024;  ///< of a point, and as many again, up to 15 times, until their noise is small enough
   float most_noise = std::numeric_limits<float>::infinity();  ///< see noise()
+  /// When no more are taken, however noisy they are.
+  std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   float near = 1;  ///< cells of the surface cache within which the rays of surface points do not end in it
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors

@@ -303,7 +303,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
             "a count, such as 40k, 128k or 1M")
       ->default_str("131072");
   add_number(*command, "--stop-after", options->stop_after, {0, 1e9},
-             "Of --grid auto: seconds after which the light is refined no further; what there is, is written");
+             "Of --grid auto: about so many seconds the light may take; what there is then, is written");
   command->add_flag("--preview", options->preview, "A first light in seconds: fewer photons, and --stop-after 2");
   command->add_flag("--sky-apart", options->sky_apart,
                     "Keep the sky's own light in a grid apart from what surfaces reflect");

@@ -35,16 +35,19 @@ Result<Figures> mesh_figures(const PackReader& pack, size_t stream) {
 Result<Figures> grid_figures(const OpenedPack& pack, const GridDescription& grid) {
   LW_TRY(light, open_asset_as<LightAsset>(pack.reader(), grid.stream));
   const Json said = to_json(std::span(&grid, 1))["grids"][0];
-  const double bytes = pack.reader().directory().streams[grid.stream].length;
-  int levels = 0;
-  for (const Brick& brick : light->bricks()) levels = std::max(levels, brick.level);
+  const std::vector<StreamEntry>& streams = pack.reader().directory().streams;
+  double bytes = streams[grid.stream].length;
+  for (const BricksDescription& bricks : grid.bricks) bytes += streams[bricks.stream].length;
+  BrickTree tree(light->shape().cells());
+  for (const Brick& brick : light->bricks()) tree.add(brick);
+  const size_t nodes = light->shape().count() + BrickNodes(tree).nodes().size();
   Figures figures{{"nodes", said["nodes"]},
                   {"cell", said["cell"]},
-                  {"levels", levels},
+                  {"levels", tree.levels()},
                   {"bricks", light->bricks().size()},
-                  {"all_nodes", light->total()},
+                  {"all_nodes", nodes},
                   {"codec", grid.codec},
-                  {"bytes_per_node", bytes / static_cast<double>(light->total())},
+                  {"bytes_per_node", bytes / static_cast<double>(nodes)},
                   {"estimate", said["estimate"]},
                   {"contains", said["contains"]}};
   if (said.contains("group")) figures["group"] = said["group"];

@@ -89,7 +89,7 @@ class Client::Machine {
     const std::vector<StreamEntry>& streams = download_.directory().streams;
     progress.bytes = progress.bytes_total;
     for (size_t i = 0; i < streams.size(); i++) {
-      const bool light = streams[i].kind == StreamKind::light;
+      const bool light = is_light(streams[i].kind);
       (light ? progress.light_bytes : progress.geometry_bytes) += download_.received(i);
       (light ? progress.light_bytes_total : progress.geometry_bytes_total) += streams[i].length;
       progress.bytes -= streams[i].length - download_.received(i);

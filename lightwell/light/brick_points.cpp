@@ -121,8 +121,8 @@ void place_brick(LightGrid& grid, uint32_t brick, const BrickPoints& nodes) {
 
 namespace {
 
-/// The first brick of a tree that has a corner of a level's cells, and its point there.
-BrickNode first_at(const BrickTree& tree, int level, const Vec3i& corner) {
+/// The first brick of a region that has a corner of a level's cells, and its point there.
+BrickNode first_at(const BrickTree& tree, const BrickRegion& region, int level, const Vec3i& corner) {
   BrickNode first{~uint32_t(0), 0};
   for (int side = 0; side < 8; side++) {
     Brick brick{.level = level, .at = {}};
@@ -133,24 +133,32 @@ BrickNode first_at(const BrickTree& tree, int level, const Vec3i& corner) {
       brick.at[a] = (corner[a] >> 2) - before;
     }
     const auto found = touches ? tree.find(brick) : std::nullopt;
-    if (found && *found < first.brick) first = {*found, Brick::point(corner - brick.at * Brick::cells)};
+    const bool within = found && *found >= region.begin && *found < region.end;
+    if (within && *found < first.brick) first = {*found, Brick::point(corner - brick.at * Brick::cells)};
   }
   return first;
 }
 
 }  // namespace
 
-BrickNodes::BrickNodes(const BrickTree& tree) {
+BrickNodes::BrickNodes(const BrickTree& tree)
+    : BrickNodes(tree, std::array{BrickRegion{.begin = 0, .end = static_cast<uint32_t>(tree.bricks().size())}}) {}
+
+BrickNodes::BrickNodes(const BrickTree& tree, std::span<const BrickRegion> regions) : numbers_(tree.bricks().size()) {
+  for (const BrickRegion& region : regions) number(tree, region);
+  first_.push_back(static_cast<uint32_t>(nodes_.size()));
+}
+
+void BrickNodes::number(const BrickTree& tree, const BrickRegion& region) {
   const std::vector<int> finer = finer_points();
-  numbers_.resize(tree.bricks().size());
-  for (uint32_t brick = 0; brick < tree.bricks().size(); brick++) {
+  for (uint32_t brick = region.begin; brick < region.end; brick++) {
     const Brick& cube = tree.bricks()[brick];
     first_.push_back(static_cast<uint32_t>(nodes_.size()));
     numbers_[brick].fill(none);
     const HangingPoints hanging(tree, cube);
     for (const int point : finer) {
       if (hanging.at(Brick::local(point))) continue;
-      const BrickNode first = first_at(tree, cube.level, cube.corner(point));
+      const BrickNode first = first_at(tree, region, cube.level, cube.corner(point));
       uint32_t& number = numbers_[brick][static_cast<size_t>(point)];
       if (first.brick < brick) {
         number = numbers_[first.brick][static_cast<size_t>(first.point)];
@@ -160,7 +168,6 @@ BrickNodes::BrickNodes(const BrickTree& tree) {
       }
     }
   }
-  first_.push_back(static_cast<uint32_t>(nodes_.size()));
 }
 
 }  // namespace lightwell

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lightwell/base/vector.h"
-#include "lightwell/light/bricks.h"
+#include "lightwell/light/brick_regions.h"
 
 namespace lightwell {
 
@@ -137,6 +137,8 @@ struct BrickNode {
 class BrickNodes {
  public:
   explicit BrickNodes(const BrickTree& tree);
+  /// As if each region were alone but for what hangs: a node on the border of two is one of both.
+  BrickNodes(const BrickTree& tree, std::span<const BrickRegion> regions);
   /// In the order of the bricks, in a brick in that of finer_points().
   std::span<const BrickNode> nodes() const { return nodes_; }
   /// The number of the first node of each brick, and at the end the number of all.
@@ -147,6 +149,8 @@ class BrickNodes {
   static constexpr uint32_t none = ~uint32_t(0);
 
  private:
+  void number(const BrickTree& tree, const BrickRegion& region);
+
   std::vector<BrickNode> nodes_;
   std::vector<uint32_t> first_;
   std::vector<std::array<uint32_t, Brick::points>> numbers_;

@@ -58,6 +58,7 @@ Result<LatticeLayout> LatticeLayout::read(Bytes parameters) {
     return reader.take(length);
   };
   const Bytes bricks = take_run();
+  if (!bricks.empty()) layout.halvings = reader.u8();
   const Bytes links = (kind & links_bit) != 0 ? take_run() : Bytes{};
   if (!reader.ok() || ((kind & links_bit) != 0 && links.empty())) return fail("light parameters", "wrong length");
   const Bytes corners = reader.take(reader.remaining());
@@ -66,15 +67,30 @@ Result<LatticeLayout> LatticeLayout::read(Bytes parameters) {
   layout.tree = BrickTree(layout.shape.cells());
   if (!bricks.empty()) {
     auto tree = BrickTree::read(layout.shape.cells(), bricks, most_bricks);
-    if (!tree) return fail("light parameters", "the bricks are damaged");
-    layout.tree = std::move(*tree);
+    if (!tree || layout.halvings > BrickRegions::most_halvings)
+      return fail("light parameters", "the bricks are damaged");
+    BrickRegions split = BrickRegions::split(*tree, layout.halvings);
+    layout.tree = std::move(split.tree);
+    layout.regions = std::move(split.regions);
   }
   if (!read_corners(layout, corners)) return fail("light parameters", "wrong length");
   return layout;
 }
 
+Result<BricksLayout> BricksLayout::read(Bytes parameters) {
+  ByteReader reader(parameters);
+  BricksLayout layout;
+  layout.grid = reader.u32();
+  layout.region = reader.u32();
+  if (!reader.ok() || reader.remaining() > 0) return fail("bricks parameters", "wrong length");
+  return layout;
+}
+
 LatticeDecoder::LatticeDecoder(LatticeLayout layout)
-    : layout_(std::move(layout)), field_(layout_), coder_(std::make_unique<LatticeCoder>()) {}
+    : layout_(std::move(layout)),
+      field_(layout_),
+      coder_(std::make_unique<LatticeCoder>()),
+      regions_(layout_.regions.size()) {}
 
 Result<LatticeDecoder> LatticeDecoder::open(Bytes parameters, uint64_t stream_bytes) {
   LW_TRY(layout, LatticeLayout::read(parameters));
@@ -88,27 +104,68 @@ Result<LatticeDecoder> LatticeDecoder::open(Bytes parameters, uint64_t stream_by
 
 Result<void> LatticeDecoder::append(Bytes payload) {
   if (complete()) return fail("light bundle", "the grid is complete already");
-  const LatticeBundle bundle = LatticeBundle::next(field_, base_, bricks_);
+  if (base_ == field_.order().size()) return decode_bricks(0, payload);
+  const size_t end = base_ + LatticeBundle::nodes(field_, base_);
   auto coder = std::make_unique<LatticeCoder>(*coder_);
   ModelReader reader(payload);
-  for (size_t i = base_; i < base_ + bundle.base; i++) {
+  for (size_t i = base_; i < end; i++) {
     constexpr size_t ahead = 3;
     field_.prefetch(i + ahead);
     const LatticeNode& place = field_.order()[i];
     coder->code(reader, field_.record(), field_.node(place.node), field_.expect(place));
   }
-  for (uint32_t brick = bricks_; brick < bricks_ + bundle.bricks; brick++)
+  // What has been set will be set again by the bundle that is whole.
+  if (reader.overrun()) return fail("light bundle", "ends too early");
+  base_ = end;
+  coder_ = std::move(coder);
+  return {};
+}
+
+Result<void> LatticeDecoder::append_bricks(size_t region, Bytes payload) {
+  if (!layout_.apart() || !complete()) return fail("light bundle", "the grid's own nodes come first");
+  if (complete(region)) return fail("light bundle", "the bricks are complete already");
+  return decode_bricks(region, payload);
+}
+
+Result<void> LatticeDecoder::decode_bricks(size_t number, Bytes payload) {
+  const BrickRegion& region = layout_.regions[number];
+  Region& state = regions_[number];
+  const uint32_t begin = region.begin + state.bricks, end = begin + LatticeBundle::bricks(field_, region, state.bricks);
+  auto coder = std::make_unique<LatticeCoder>(state.coder ? *state.coder : *coder_);
+  ModelReader reader(payload);
+  for (uint32_t brick = begin; brick < end; brick++)
     field_.set_brick(brick, [&](std::span<int32_t> numbers, LatticeParents& parents, int) {
       if (!layout_.links.empty()) coder->code_links(reader, parents, numbers.size() - 1);
       coder->code(reader, field_.record(), numbers, LatticeExpectation(field_.record(), parents));
     });
-  // What has been set will be set again by the bundle that is whole.
   if (reader.overrun()) return fail("light bundle", "ends too early");
-  base_ += bundle.base;
-  bricks_ += bundle.bricks;
-  nodes_ = field_.nodes().first()[bricks_];
-  coder_ = std::move(coder);
+  state.bricks += end - begin;
+  state.coder = std::move(coder);
   return {};
+}
+
+bool LatticeDecoder::complete() const {
+  return base_ == field_.order().size() && (layout_.apart() || regions_.empty() || complete(0));
+}
+
+size_t LatticeDecoder::received(size_t region) const {
+  const auto& first = field_.nodes().first();
+  const uint32_t begin = layout_.regions[region].begin;
+  return first[begin + regions_[region].bricks] - first[begin];
+}
+
+size_t LatticeDecoder::received() const {
+  size_t nodes = base_;
+  for (size_t region = 0; region < regions_.size(); region++) nodes += received(region);
+  return nodes;
+}
+
+/// The bricks that are here, coarser ones before those inside of them.
+std::vector<uint32_t> LatticeDecoder::arrived() const {
+  std::vector<uint32_t> bricks;
+  for (size_t region = 0; region < regions_.size(); region++)
+    for (uint32_t i = 0; i < regions_[region].bricks; i++) bricks.push_back(layout_.regions[region].begin + i);
+  return bricks;
 }
 
 LightGrid LatticeDecoder::grid(Fill fill) const {
@@ -130,19 +187,21 @@ LightGrid LatticeDecoder::grid(Fill fill) const {
 }
 
 void LatticeDecoder::place_bricks(LightGrid& grid) const {
+  const std::vector<uint32_t> bricks = arrived();
   grid.tree = BrickTree(layout_.tree.cells());
-  for (uint32_t brick = 0; brick < bricks_; brick++) grid.tree.add(layout_.tree.bricks()[brick]);
-  grid.bricks.resize(bricks_);
-  for (uint32_t brick = 0; brick < bricks_; brick++) {
+  for (const uint32_t brick : bricks) grid.tree.add(layout_.tree.bricks()[brick]);
+  grid.bricks.resize(bricks.size());
+  for (uint32_t i = 0; i < bricks.size(); i++) {
     BrickPoints nodes;
     for (const int point : field_.finer()) {
-      const std::span<const int32_t> numbers = field_.point(brick, point);
+      const std::span<const int32_t> numbers = field_.point(bricks[i], point);
       nodes[static_cast<size_t>(point)] = {field_.record().decode(numbers), node_weight(numbers.back() != 0)};
     }
-    place_brick(grid, brick, nodes);
+    place_brick(grid, i, nodes);
   }
   const std::vector<Links::Points>& links = field_.links().bricks;
-  if (!links.empty()) grid.links.bricks.assign(links.begin(), links.begin() + bricks_);
+  if (links.empty()) return;
+  for (const uint32_t brick : bricks) grid.links.bricks.push_back(links[brick]);
 }
 
 }  // namespace lightwell

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <numeric>
 
 #include "lightwell/base/assert.h"
 #include "lightwell/base/model_coder.h"
@@ -42,53 +43,94 @@ class BundleEncoder {
  public:
   BundleEncoder(const LightGrid& grid, const LatticeLayout& layout)
       : grid_(grid),
+        layout_(layout),
         field_(layout),
         numbers_(numbers_in(grid, layout.tree)),
-        tree_(layout.tree),
         linked_(!layout.links.empty()) {}
 
-  std::vector<LightBundle> encode() {
-    std::vector<LightBundle> bundles;
-    std::vector<double> mended;
-    for (size_t base = 8; base < field_.order().size() || brick_ < numbers_.size();) {
-      const LatticeBundle bundle = LatticeBundle::next(field_, base, brick_);
-      mended_ = 0;
-      ModelWriter writer;
-      const uint32_t first = field_.nodes().first()[brick_];
-      for (size_t i = base; i < base + bundle.base; i++) encode_node(writer, field_.order()[i]);
-      for (uint32_t i = 0; i < bundle.bricks; i++) encode_brick(writer);
-      base += bundle.base;
-      const auto nodes = static_cast<uint32_t>(bundle.base) + field_.nodes().first()[brick_] - first;
-      bundles.push_back({.payload = writer.finish(), .nodes = nodes});
-      std::vector<uint8_t>& payload = bundles.back().payload;
-      payload.resize(std::max<size_t>(payload.size(), (nodes + light_nodes_per_byte - 1) / light_nodes_per_byte));
-      mended.push_back(mended_);
+  void encode(LatticeStream& stream) {
+    Bundles own;
+    for (size_t done = 8; done < field_.order().size();) {
+      const size_t nodes = LatticeBundle::nodes(field_, done);
+      encode_bundle(own, static_cast<uint32_t>(nodes), [&](ModelWriter& writer) {
+        for (size_t i = done; i < done + nodes; i++) encode_node(writer, field_.order()[i]);
+      });
+      done += nodes;
     }
+    const LatticeCoder after_nodes = coder_;
+    std::vector<Bundles> regions;
+    for (const BrickRegion& region : layout_.regions) {
+      if (layout_.apart()) {
+        coder_ = after_nodes;
+        regions.emplace_back();
+      }
+      encode_region(region, layout_.apart() ? regions.back() : own);
+    }
+    double of_regions = 0;
+    for (const Bundles& region : regions) of_regions += region.mends();
     // What is missing errs at least as much as its own bundles will mend; parents that are missing too add to it.
-    double left = 0;
-    for (size_t i = bundles.size(); i > 0; i--) {
-      bundles[i - 1].error = whole_ > 0 ? static_cast<float>(std::min(1.0, std::sqrt(left / whole_))) : 0;
-      left += mended[i - 1];
-    }
-    return bundles;
+    stream.bundles = own.take(of_regions, whole_);
+    for (Bundles& region : regions) stream.regions.push_back(region.take(of_regions - region.mends(), whole_));
   }
 
  private:
+  /// The bundles of a stream.
+  class Bundles {
+   public:
+    void add(LightBundle bundle, double mended) {
+      bundles_.push_back(std::move(bundle));
+      mended_.push_back(mended);
+    }
+    double mends() const { return std::accumulate(mended_.begin(), mended_.end(), 0.0); }
+    /// With their errors, when others still have so much of the whole to mend.
+    std::vector<LightBundle> take(double left, double whole) {
+      for (size_t i = bundles_.size(); i > 0; i--) {
+        bundles_[i - 1].error = whole > 0 ? static_cast<float>(std::min(1.0, std::sqrt(left / whole))) : 0;
+        left += mended_[i - 1];
+      }
+      return std::move(bundles_);
+    }
+
+   private:
+    std::vector<LightBundle> bundles_;
+    std::vector<double> mended_;
+  };
+
+  template <typename Encode>
+  void encode_bundle(Bundles& bundles, uint32_t nodes, const Encode& encode) {
+    mended_ = 0;
+    ModelWriter writer;
+    encode(writer);
+    LightBundle bundle{.payload = writer.finish(), .nodes = nodes};
+    const size_t least = (nodes + light_nodes_per_byte - 1) / light_nodes_per_byte;
+    bundle.payload.resize(std::max(bundle.payload.size(), least));
+    bundles.add(std::move(bundle), mended_);
+  }
+
+  void encode_region(const BrickRegion& region, Bundles& bundles) {
+    const auto& first = field_.nodes().first();
+    for (uint32_t brick = region.begin; brick < region.end;) {
+      const uint32_t end = brick + LatticeBundle::bricks(field_, region, brick - region.begin);
+      encode_bundle(bundles, first[end] - first[brick], [&](ModelWriter& writer) {
+        for (; brick < end; brick++) encode_brick(writer, brick);
+      });
+    }
+  }
+
   void encode_node(ModelWriter& writer, const LatticeNode& place) {
     encode_light(writer, field_.node(place.node), grid_.moments[place.node], grid_.valid[place.node] != 0,
                  field_.expect(place), 1);
   }
 
-  void encode_brick(ModelWriter& writer) {
-    const uint32_t number = numbers_[brick_];
-    const double size = std::ldexp(1.0, -3 * tree_.bricks()[brick_].level);
-    field_.set_brick(brick_, [&](std::span<int32_t> numbers, LatticeParents& parents, int point) {
+  void encode_brick(ModelWriter& writer, uint32_t brick) {
+    const uint32_t number = numbers_[brick];
+    const double size = std::ldexp(1.0, -3 * layout_.tree.bricks()[brick].level);
+    field_.set_brick(brick, [&](std::span<int32_t> numbers, LatticeParents& parents, int point) {
       if (linked_) encode_links(writer, grid_.links.bricks[number], parents, point);
       const BrickPoint& light = grid_.bricks[number][static_cast<size_t>(point)];
       encode_light(writer, numbers, light.moments, light.weight > node_weight(false),
                    LatticeExpectation(field_.record(), parents), size);
     });
-    brick_++;
   }
 
   void encode_links(ModelWriter& writer, const Links::Points& links, LatticeParents& parents, int point) {
@@ -111,12 +153,11 @@ class BundleEncoder {
   }
 
   const LightGrid& grid_;
+  const LatticeLayout& layout_;
   LatticeField field_;
   LatticeCoder coder_;
   const std::vector<uint32_t> numbers_;
-  const BrickTree& tree_;
   const bool linked_;
-  uint32_t brick_ = 0;
   double mended_ = 0, whole_ = 0;
 };
 
@@ -156,11 +197,25 @@ void LatticeLayout::write(ByteWriter& writer) const {
   const std::vector<uint8_t> bricks = tree.empty() ? std::vector<uint8_t>() : tree.write();
   writer.u32(static_cast<uint32_t>(bricks.size()));
   writer.append(bricks);
+  if (!bricks.empty()) writer.u8(static_cast<uint8_t>(halvings));
   if (!links.empty()) {
     writer.u32(static_cast<uint32_t>(links.size()));
     writer.append(links);
   }
   writer.append(write_corners(*this));
+}
+
+void BricksLayout::write(ByteWriter& writer) const {
+  writer.u32(grid);
+  writer.u32(region);
+}
+
+int halvings_for(const LightGrid& grid) {
+  constexpr size_t most_nodes = 4096;
+  size_t nodes = BrickNodes(grid.tree).nodes().size();
+  int halvings = 0;
+  for (; nodes > most_nodes && halvings < BrickRegions::most_halvings; nodes /= 2) halvings++;
+  return halvings;
 }
 
 int steps_for(const LightGrid& grid) {
@@ -177,10 +232,13 @@ Result<LatticeStream> encode_lattice(const LightGrid& grid, const LatticeStreamO
   layout.scale = light_scale(grid);
   layout.record = options.record;
   layout.steps = options.steps > 0 ? options.steps : steps_for(grid);
-  layout.tree = grid.tree.ordered();
+  layout.halvings = options.halvings >= 0 ? options.halvings : halvings_for(grid);
+  BrickRegions split = BrickRegions::split(grid.tree, layout.halvings);
+  layout.tree = std::move(split.tree);
+  layout.regions = std::move(split.regions);
   layout.links = write_links(grid);
   layout.corners = corners_of(grid, *layout.make_record());
-  stream.bundles = BundleEncoder(grid, layout).encode();
+  BundleEncoder(grid, layout).encode(stream);
   return stream;
 }
 

@@ -29,7 +29,7 @@ LatticeField::LatticeField(const LatticeLayout& layout)
       tree_(layout.tree),
       grid_nodes_(layout.shape.nodes),
       order_(lattice_order(layout.shape.nodes)),
-      nodes_(layout.tree),
+      nodes_(layout.tree, layout.regions),
       values_(layout.shape.count(), record_->numbers().size()),
       points_(layout.tree.bricks().size() * Brick::points, record_->numbers().size()),
       finer_(finer_points()) {
@@ -120,17 +120,16 @@ void LatticeField::take_corners(uint32_t brick) {
   }
 }
 
-LatticeBundle LatticeBundle::next(const LatticeField& field, size_t base_done, uint32_t bricks_done) {
-  LatticeBundle bundle;
-  if (base_done < field.order().size()) {
-    bundle.base = std::min(wanted, field.order().size() - base_done);
-    return bundle;
-  }
+size_t LatticeBundle::nodes(const LatticeField& field, size_t done) {
+  return std::min(wanted, field.order().size() - done);
+}
+
+uint32_t LatticeBundle::bricks(const LatticeField& field, const BrickRegion& region, uint32_t done) {
   const auto& first = field.nodes().first();
-  while (bricks_done + bundle.bricks + 1 < first.size() &&
-         first[bricks_done + bundle.bricks] - first[bricks_done] < wanted)
-    bundle.bricks++;
-  return bundle;
+  const uint32_t begin = region.begin + done;
+  uint32_t end = begin;
+  while (end < region.end && first[end] - first[begin] < wanted) end++;
+  return end - begin;
 }
 
 }  // namespace lightwell

@@ -17,6 +17,8 @@ namespace lightwell {
 /// The codec number of this header's format: nodes in the lattice order, each told by how it differs from the mean of
 /// those between which it lies, then bricks in the same way (docs/format.md; docs/decisions/020-lattice.md).
 inline constexpr uint8_t light_codec_lattice = 1;
+/// The codec number of streams of bricks: the bricks of a region of such a grid (decision 035).
+inline constexpr uint8_t bricks_codec_lattice = 0;
 
 /// The parameters of a lattice stream: everything known before the first bundle.
 struct LatticeLayout {
@@ -24,8 +26,10 @@ struct LatticeLayout {
   float normal_offset = 0.25f;
   float scale = 1;  ///< E is taken times this power of two: see light_scale
   LightRecord record = LightRecord::moments;
-  int steps = 32;              ///< to an octave: see make_lattice_record
-  BrickTree tree;              ///< in the order of BrickTree::ordered
+  int steps = 32;    ///< to an octave: see make_lattice_record
+  int halvings = 0;  ///< see BrickRegions; of 0 bricks follow the grid's own nodes, else they are apart
+  BrickTree tree;    ///< region by region
+  std::vector<BrickRegion> regions;
   std::vector<uint8_t> links;  ///< see write_links; those of bricks are told with their nodes. Empty: all are open.
   LatticeNumbers corners;
 
@@ -33,6 +37,8 @@ struct LatticeLayout {
   /// Together with what they hold, bricks take 17 kB each where they are decoded.
   static constexpr size_t most_bricks = 20'000;
 
+  /// Whether each region of bricks has a stream of its own.
+  bool apart() const { return halvings > 0 && !regions.empty(); }
   std::unique_ptr<const LatticeRecord> make_record() const { return make_lattice_record(record, steps, scale); }
 
   void write(ByteWriter& writer) const;
@@ -46,16 +52,32 @@ struct LatticeLayout {
 struct LatticeStream {
   LatticeLayout layout;
   std::vector<LightBundle> bundles;
+  /// Those of each region where they are apart; their errors are what is left of the grid's when no other region comes.
+  std::vector<std::vector<LightBundle>> regions;
+};
+
+/// The parameters of a stream of bricks.
+struct BricksLayout {
+  uint32_t grid = 0;  ///< the light stream of its grid, which comes before it
+  uint32_t region = 0;
+
+  void write(ByteWriter& writer) const;
+  /// Fails on trailing bytes.
+  static Result<BricksLayout> read(Bytes parameters);
 };
 
 struct LatticeStreamOptions {
   LightRecord record = LightRecord::moments;
-  int steps = 0;  ///< to an octave of irradiance; 32 adds an error of 0.7 %; 0: see steps_for
+  int steps = 0;      ///< to an octave of irradiance; 32 adds an error of 0.7 %; 0: see steps_for
+  int halvings = -1;  ///< of space, into regions of bricks; negative: see halvings_for
 };
 
 /// 32, or 16 where a grid's own noise hides the 1.2 % that these add: noise costs bytes, and finer steps only spell it
 /// out.
 int steps_for(const LightGrid& grid);
+
+/// Regions of 4,096 nodes or less, 15 kB: a smaller one costs more bytes than a picture is the sooner lit for.
+int halvings_for(const LightGrid& grid);
 
 /// Encodes a whole grid. Fails for shapes beyond the limits of LightLayout and LatticeLayout.
 Result<LatticeStream> encode_lattice(const LightGrid& grid, const LatticeStreamOptions& options = {});
@@ -124,7 +146,7 @@ struct BrickParent {
 };
 const std::vector<BrickParent>& brick_parents(int point);
 
-/// Decodes a lattice stream. Safe for any bytes.
+/// Decodes a lattice stream, and those of its bricks where they are apart. Safe for any bytes.
 class LatticeDecoder {
  public:
   /// `stream_bytes` is at least the sum of all payloads. Fails as LatticeLayout::read does, and, before anything of
@@ -134,36 +156,48 @@ class LatticeDecoder {
   const LatticeLayout& layout() const { return layout_; }
   /// Decodes the payload of the next bundle. A failure leaves the state unchanged.
   Result<void> append(Bytes payload);
+  /// Whether all that append() is for is here: bricks that are apart are not.
+  bool complete() const;
+  /// The same for the bricks of a region that is apart, once append() has had all.
+  Result<void> append_bricks(size_t region, Bytes payload);
+  bool complete(size_t region) const { return regions_[region].bricks == layout_.regions[region].count(); }
 
-  /// Number of nodes known, of total().
-  size_t received() const { return base_ + nodes_; }
+  /// Number of nodes known, of total(); a node on the border of two regions counts for both.
+  size_t received() const;
+  size_t received(size_t region) const;
   size_t total() const { return field_.count(); }
-  bool complete() const { return received() == total(); }
   /// The grid as far as it has come; what is missing lies between what is known, as does the fill of invalid nodes.
   /// With Fill::none missing nodes of the grid's own are dark.
   LightGrid grid(Fill fill) const;
 
  private:
+  /// What has come of a region.
+  struct Region {
+    uint32_t bricks = 0;
+    /// Too large for a WebAssembly stack; none before the first bundle, which goes on where the grid's own nodes ended.
+    std::unique_ptr<LatticeCoder> coder;
+  };
+
   explicit LatticeDecoder(LatticeLayout layout);
+  Result<void> decode_bricks(size_t region, Bytes payload);
+  std::vector<uint32_t> arrived() const;
   void place_bricks(LightGrid& grid) const;
 
   LatticeLayout layout_;
   LatticeField field_;
-  std::unique_ptr<LatticeCoder> coder_;  ///< too large for a WebAssembly stack
-  size_t base_ = 8;                      ///< nodes of the grid's own that have arrived
-  size_t nodes_ = 0;                     ///< nodes of bricks that have arrived
-  uint32_t bricks_ = 0;                  ///< bricks that have arrived
+  std::unique_ptr<LatticeCoder> coder_;
+  size_t base_ = 8;  ///< nodes of the grid's own that have arrived
+  std::vector<Region> regions_;
 };
 
-/// How many nodes or bricks the next bundle holds: 256 of the grid's own nodes or what is left of them, then as many
-/// whole bricks as it takes to have as many nodes.
+/// How many nodes or bricks a bundle holds.
 struct LatticeBundle {
   static constexpr size_t wanted = 256;
 
-  size_t base = 0;
-  uint32_t bricks = 0;
-
-  static LatticeBundle next(const LatticeField& field, size_t base_done, uint32_t bricks_done);
+  /// 256 of the grid's own nodes, or what is left of them.
+  static size_t nodes(const LatticeField& field, size_t done);
+  /// As many whole bricks of a region, of which so many are done, as it takes to have 256 nodes.
+  static uint32_t bricks(const LatticeField& field, const BrickRegion& region, uint32_t done);
 };
 
 template <typename Code>

@@ -26,7 +26,7 @@ Result<StreamEntry> read_stream(ByteReader& reader, size_t index) {
   entry.blocks = reader.u32();
   entry.error = reader.f32();
   const uint32_t parameters = reader.u32();
-  if (kind > static_cast<uint8_t>(StreamKind::texture))
+  if (kind >= stream_kinds)
     return fail(ErrorKind::unsupported, name_of(index), "is of unknown kind " + std::to_string(kind));
   entry.kind = static_cast<StreamKind>(kind);
   if (reserved != 0) return fail(name_of(index), "its reserved field is not zero");
@@ -59,6 +59,7 @@ const char* to_text(StreamKind kind) {
     case StreamKind::light: return "light";
     case StreamKind::mesh: return "mesh";
     case StreamKind::texture: return "texture";
+    case StreamKind::bricks: return "bricks";
   }
   LW_ASSERT(false);
 }

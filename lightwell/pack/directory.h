@@ -30,7 +30,14 @@ using PackId = std::array<uint8_t, 16>;
 /// The id as 32 hexadecimal digits.
 std::string to_text(const PackId& id);
 
-enum class StreamKind : uint8_t { light = 0, mesh = 1, texture = 2 };
+enum class StreamKind : uint8_t {
+  light = 0,
+  mesh = 1,
+  texture = 2,
+  bricks = 3  ///< finer cells of a part of a light grid, whose stream comes before
+};
+constexpr int stream_kinds = 4;
+constexpr bool is_light(StreamKind kind) { return kind == StreamKind::light || kind == StreamKind::bricks; }
 
 /// A row of a block table.
 struct BlockRow {
@@ -82,7 +89,7 @@ uint32_t block_check(Bytes payload, const PackId& id);
 /// The payload of a block or page, given as it lies in the file; empty when its check fails or it has no payload.
 Bytes checked_payload(Bytes block, const PackId& id);
 
-/// The kind's name in messages and reports: "light", "mesh" or "texture".
+/// The kind's name in messages and reports: "light", "mesh", "texture" or "bricks".
 const char* to_text(StreamKind kind);
 
 }  // namespace lightwell

@@ -28,6 +28,8 @@ Json grid_json(const GridDescription& grid) {
             {"priority", grid.priority},
             {"contains", contents_json(grid.contains)}};
   if (!grid.contains.group.empty()) json["group"] = grid.contains.group;
+  for (const BricksDescription& bricks : grid.bricks)
+    json["bricks"].push_back({{"stream", bricks.stream}, {"min", to_json(bricks.lo)}, {"max", to_json(bricks.hi)}});
   return json;
 }
 
@@ -46,6 +48,16 @@ GridContents read_contents(MemberReader& reader) {
   return contents;
 }
 
+Result<std::vector<BricksDescription>> read_bricks(const Json& list, const std::string& name) {
+  std::vector<BricksDescription> bricks;
+  for (size_t i = 0; i < list.size(); i++) {
+    MemberReader reader(list[i], name + ".bricks[" + std::to_string(i) + "]");
+    LW_TRY(read, reader.finish(BricksDescription{reader.whole("stream"), reader.vector("min"), reader.vector("max")}));
+    bricks.push_back(read);
+  }
+  return bricks;
+}
+
 Result<GridDescription> read_grid(const Json& json, const std::string& name) {
   MemberReader reader(json, name);
   GridDescription grid;
@@ -59,10 +71,18 @@ Result<GridDescription> read_grid(const Json& json, const std::string& name) {
   LW_CHECK(estimate.finish(true));
   grid.priority = static_cast<int>(reader.whole("priority"));
   grid.contains = read_contents(reader);
+  if (reader.has("bricks")) {
+    LW_TRY(bricks, read_bricks(reader.array("bricks"), name));
+    grid.bricks = std::move(bricks);
+  }
   return reader.finish(grid);
 }
 
 }  // namespace
+
+BricksDescription describe_bricks(const GridShape& shape, const BrickRegion& region, uint32_t stream) {
+  return {stream, shape.position(region.lo), shape.position(region.hi)};
+}
 
 Json to_json(std::span<const GridDescription> grids) {
   Json list = Json::array();

@@ -14,6 +14,17 @@ namespace lightwell {
 /// The LIGHTWELL_light_grids extension (docs/format.md): the light grids of a pack, each carried by a light stream.
 inline constexpr const char* grids_extension = "LIGHTWELL_light_grids";
 
+/// A stream of bricks of a light grid, and a box that holds them, in the grid's space.
+struct BricksDescription {
+  uint32_t stream = 0;
+  Vec3f lo{}, hi{};
+
+  bool operator==(const BricksDescription&) const = default;
+};
+
+/// The box of a region of a grid's bricks.
+BricksDescription describe_bricks(const GridShape& shape, const BrickRegion& region, uint32_t stream);
+
 /// A light grid as the JSON describes it.
 struct GridDescription {
   uint32_t stream = 0;
@@ -24,6 +35,7 @@ struct GridDescription {
   ErrorEstimate estimate{};
   int priority = 0;  ///< where grids of the same contents overlap, the highest priority is looked up
   GridContents contains;
+  std::vector<BricksDescription> bricks{};  ///< of each region, where regions have streams of their own
 
   bool operator==(const GridDescription&) const = default;
 };

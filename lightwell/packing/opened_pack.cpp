@@ -51,6 +51,7 @@ Result<void> OpenedPack::check_streams() const {
     return {};
   };
   LW_CHECK(check(grids_, StreamKind::light, grids_extension));
+  for (const GridDescription& grid : grids_) LW_CHECK(check(grid.bricks, StreamKind::bricks, grids_extension));
   LW_CHECK(check(primitives_, StreamKind::mesh, mesh_extension));
   return check(textures_, StreamKind::texture, texture_extension);
 }

@@ -23,7 +23,8 @@ std::vector<GridDescription> describe(const PackLight& light, const PackContent&
   for (const PackGrid& grid : light.grids)
     grids.push_back({static_cast<uint32_t>(content.grid_stream(grids.size())), grid.grid->shape,
                      grid.order == LightNodeOrder::slices ? light_codec_slices : light_codec_lattice,
-                     grid.grid->normal_offset, grid.estimated_error, grid.estimate, grid.priority, grid.contains});
+                     grid.grid->normal_offset, grid.estimated_error, grid.estimate, grid.priority, grid.contains,
+                     content.light.bricks[grids.size()]});
   return grids;
 }
 

@@ -2,21 +2,23 @@
 #pragma once
 
 #include "lightwell/pack/writer.h"
+#include "lightwell/packing/encoded_light.h"
 #include "lightwell/packing/pack_images.h"
 #include "lightwell/packing/pack_light.h"
 #include "lightwell/packing/pack_meshes.h"
 
 namespace lightwell {
 
-/// The contents of the streams of a pack, which are numbered in this order: light grids, meshes, images.
+/// The contents of the streams of a pack, which are numbered in this order: light grids, their bricks where those are
+/// apart, meshes, images.
 struct PackContent {
-  size_t grids = 0;
+  EncodedLight light;
   std::vector<StreamedMesh> meshes;
   std::vector<StreamedImage> images;
 
   size_t grid_stream(size_t index) const { return index; }
-  size_t mesh_stream(size_t index) const { return grids + index; }
-  size_t image_stream(size_t index) const { return grids + meshes.size() + index; }
+  size_t mesh_stream(size_t index) const { return light.streams.size() + index; }
+  size_t image_stream(size_t index) const { return mesh_stream(meshes.size()) + index; }
 };
 
 /// Adds the extensions that do not depend on the pack's id: LIGHTWELL_progressive_mesh, LIGHTWELL_progressive_texture,

@@ -3,7 +3,6 @@
 
 #include <set>
 
-#include "lightwell/light/lattice_stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/self_contained.h"
 #include "lightwell/packing/pack_json.h"
@@ -93,31 +92,6 @@ BasePlaces places_of(const Json& json, const Json& primitive) {
   return places;
 }
 
-/// A light stream of either codec, which `encoded` is of.
-template <typename Encoded>
-PackStream light_stream(Encoded encoded, uint8_t codec) {
-  PackStream stream;
-  stream.kind = StreamKind::light;
-  stream.codec = codec;
-  ByteWriter parameters;
-  encoded.layout.write(parameters);
-  stream.parameters = parameters.release();
-  // The error of the eight corners alone is unknown; it may be as large as the light itself.
-  if (!encoded.bundles.empty()) stream.error = std::max(1.0f, encoded.bundles.front().error);
-  for (LightBundle& bundle : encoded.bundles)
-    stream.blocks.push_back({std::move(bundle.payload), bundle.nodes, bundle.error});
-  return stream;
-}
-
-Result<PackStream> light_stream(const PackGrid& grid) {
-  if (grid.order == LightNodeOrder::slices) {
-    LW_TRY(encoded, encode_light(*grid.grid, {.seed = grid.seed}));
-    return light_stream(std::move(encoded), light_codec_slices);
-  }
-  LW_TRY(encoded, encode_lattice(*grid.grid, {.record = grid.record}));
-  return light_stream(std::move(encoded), light_codec_lattice);
-}
-
 PackStream mesh_stream(StreamedMesh& mesh, const Json& json, const Json& primitive) {
   PackStream stream;
   stream.kind = StreamKind::mesh;
@@ -157,7 +131,8 @@ void count(const Scene& scene, PackStatistics& statistics) {
 
 void count(const PackPlan& plan, size_t file_bytes, PackStatistics& statistics) {
   for (const StreamEntry& entry : plan.streams) switch (entry.kind) {
-      case StreamKind::light: statistics.light_bytes += entry.length; break;
+      case StreamKind::light:
+      case StreamKind::bricks: statistics.light_bytes += entry.length; break;
       case StreamKind::mesh: statistics.geometry_bytes += entry.length; break;
       case StreamKind::texture: statistics.texture_bytes += entry.length; break;
     }
@@ -169,7 +144,8 @@ void count(const PackPlan& plan, size_t file_bytes, PackStatistics& statistics) 
 Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, const PackOptions& options,
                                        Progress& progress, Report& report, PackStatistics& statistics) {
   PackContent content;
-  content.grids = light.grids.size();
+  LW_TRY(encoded_light, encode_light(light.grids));
+  content.light = std::move(encoded_light);
   LW_TRY(meshes, encode_meshes(scene, options, progress));
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
@@ -185,11 +161,7 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   share_buffer_views(document);
   document = single_buffer(std::move(document), report);
 
-  std::vector<PackStream> streams;
-  for (const PackGrid& grid : light.grids) {
-    LW_TRY(stream, light_stream(grid));
-    streams.push_back(std::move(stream));
-  }
+  std::vector<PackStream> streams = std::move(content.light.streams);
   for (StreamedMesh& mesh : content.meshes) {
     const Primitive& source = scene.primitives[static_cast<size_t>(mesh.primitive)];
     streams.push_back(mesh_stream(mesh, document.json, primitive_json(document.json, source)));

@@ -8,6 +8,7 @@
 #include "lightwell/asset/texture_asset.h"
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/gltf/parsed_document.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/lamps_extension.h"
 
@@ -126,11 +127,20 @@ Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level,
 }
 
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level) {
-  LW_TRY(light, open_asset_as<LightAsset>(pack, stream));
+  AssetContext context{.bin = glb_chunks(pack.opening()).bin};
+  LW_TRY(light, open_asset_as<LightAsset>(pack.directory(), stream, context));
   const double wanted = static_cast<double>(level.share) * static_cast<double>(light->total());
-  LW_CHECK(
-      append_blocks(pack, stream, *light, [&](uint32_t) { return static_cast<double>(light->received()) < wanted; }));
-  if (level.share >= 1 && !light->complete())
+  const auto more = [&](uint32_t) { return static_cast<double>(light->received()) < wanted; };
+  LW_CHECK(append_blocks(pack, stream, *light, more));
+  for (size_t other = stream + 1; other < pack.directory().streams.size(); other++) {
+    const StreamEntry& entry = pack.directory().streams[other];
+    if (entry.kind != StreamKind::bricks) continue;
+    LW_TRY(layout, BricksLayout::read(entry.parameters));
+    if (layout.grid != stream) continue;
+    LW_TRY(bricks, open_asset(pack.directory(), static_cast<uint32_t>(other), context));
+    LW_CHECK(append_blocks(pack, other, *bricks, more));
+  }
+  if (level.share >= 1 && light->received() < light->total())
     return fail("stream " + std::to_string(stream), "the light grid is not complete");
   return light->filled(level.fill);
 }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "lightwell/asset/light_asset.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/unpack.h"
@@ -59,6 +60,21 @@ Result<void> verify_same_cells(const OpenedPack& pack, const GridDescription& a,
   return fail(grids_extension, "grids of different light have different cells");
 }
 
+/// The streams of bricks of a grid as its parameters and theirs say.
+Result<std::vector<BricksDescription>> bricks_of(const OpenedPack& pack, uint32_t grid) {
+  std::vector<BricksDescription> bricks;
+  const std::vector<StreamEntry>& streams = pack.reader().directory().streams;
+  if (streams[grid].codec != light_codec_lattice) return bricks;
+  LW_TRY(layout, LatticeLayout::read(streams[grid].parameters));
+  for (uint32_t stream = 0; stream < streams.size(); stream++) {
+    if (streams[stream].kind != StreamKind::bricks) continue;
+    LW_TRY(parameters, BricksLayout::read(streams[stream].parameters));
+    if (parameters.grid == grid && parameters.region < layout.regions.size())
+      bricks.push_back(describe_bricks(layout.shape, layout.regions[parameters.region], stream));
+  }
+  return bricks;
+}
+
 Result<void> verify_grids(const OpenedPack& pack) {
   for (size_t i = 1; i < pack.grids().size(); i++)
     LW_CHECK(verify_same_cells(pack, pack.grids()[i - 1], pack.grids()[i]));
@@ -67,16 +83,21 @@ Result<void> verify_grids(const OpenedPack& pack) {
     if (grid.shape != light->shape() || grid.normal_offset != light->normal_offset() ||
         grid.codec != entry_of(pack, grid.stream).codec)
       return differs(grids_extension, "a grid");
+    LW_TRY(bricks, bricks_of(pack, grid.stream));
+    if (grid.bricks != bricks) return differs(grids_extension, "a grid's bricks");
   }
   return {};
 }
 
-// Checks that exactly one element names each light and mesh stream. A program that follows the JSON would not show an
-// unnamed one; if two elements named one, programs that start from the stream would refine only one of them. Images may
-// belong to any number of textures.
+// Checks that exactly one element names each stream of light, bricks or a mesh. A program that follows the JSON would
+// not show an unnamed one; if two elements named one, programs that start from the stream would refine only one of
+// them. Images may belong to any number of textures.
 Result<void> verify_named_once(const OpenedPack& pack) {
   std::map<uint32_t, int> names;
-  for (const GridDescription& grid : pack.grids()) names[grid.stream]++;
+  for (const GridDescription& grid : pack.grids()) {
+    names[grid.stream]++;
+    for (const BricksDescription& bricks : grid.bricks) names[bricks.stream]++;
+  }
   for (const RefinedPrimitive& refined : pack.primitives()) names[refined.stream]++;
   const auto& streams = pack.reader().directory().streams;
   for (uint32_t i = 0; i < streams.size(); i++)

@@ -101,6 +101,86 @@ TEST(Codecs, OpenALatticeWithBricks) {
   EXPECT_EQ(refused.error().kind, ErrorKind::limit);
 }
 
+/// A grid whose bricks have streams of their own: the directory, and the payloads of each stream.
+struct BricksApart {
+  LightGrid grid = bricked_grid(4, 60);
+  Directory directory;
+  std::vector<std::vector<std::vector<uint8_t>>> payloads;
+
+  BricksApart() {
+    const LatticeStream stream = encode_lattice(grid, {.halvings = 2}).value();
+    ByteWriter parameters;
+    stream.layout.write(parameters);
+    directory = directory_of(asset_case(StreamKind::light, parameters.release(), {}, {}, light_codec_lattice,
+                                        static_cast<uint8_t>(stream.regions.size())));
+    add(0, stream.bundles);
+    for (size_t region = 0; region < stream.regions.size(); region++) add(1 + region, stream.regions[region]);
+  }
+
+ private:
+  void add(size_t stream, const std::vector<LightBundle>& bundles) {
+    payloads.emplace_back();
+    for (const LightBundle& bundle : bundles) {
+      payloads.back().push_back(bundle.payload);
+      directory.streams[stream].length += static_cast<uint32_t>(bundle.payload.size());
+    }
+  }
+};
+
+TEST(Codecs, BricksApartRefineTheirGrid) {
+  const BricksApart pack;
+  ASSERT_EQ(pack.payloads.size(), 5u) << "the grid, and four regions";
+  AssetContext context;
+  const auto light = open_asset_as<LightAsset>(pack.directory, 0, context).value();
+  std::vector<std::unique_ptr<AssetDecoder>> bricks;
+  for (uint32_t stream = 1; stream < pack.payloads.size(); stream++) {
+    bricks.push_back(open_asset(pack.directory, stream, context).value());
+    EXPECT_FALSE(bricks.back()->accepts()) << "the grid's own nodes come first";
+  }
+  for (const std::vector<uint8_t>& payload : pack.payloads[0]) ASSERT_TRUE(light->append(payload));
+  EXPECT_TRUE(light->complete());
+  EXPECT_LT(light->received(), light->total());
+  // The last region first: only its bricks are there then.
+  for (size_t i = bricks.size(); i > 0; i--) {
+    const size_t before = light->filled(Fill::none).bricks.size();
+    ASSERT_TRUE(bricks[i - 1]->accepts());
+    for (const std::vector<uint8_t>& payload : pack.payloads[i]) ASSERT_TRUE(bricks[i - 1]->append(payload));
+    EXPECT_TRUE(bricks[i - 1]->complete());
+    EXPECT_GT(light->filled(Fill::none).bricks.size(), before);
+    EXPECT_FALSE(bricks[i - 1]->take(1000)) << "updates are the grid's";
+  }
+  EXPECT_EQ(light->received(), light->total());
+  EXPECT_TRUE(light->settle());
+  EXPECT_TRUE(light->take(1));
+  EXPECT_EQ(light->filled(Fill::none).bricks.size(), pack.grid.bricks.size());
+}
+
+TEST(Codecs, RefuseBricksThatDoNotGoWithTheirGrid) {
+  const auto refused = [](const auto& change) {
+    BricksApart pack;
+    change(pack.directory.streams);
+    AssetContext context;
+    for (uint32_t stream = 0; stream < pack.directory.streams.size(); stream++)
+      if (!open_asset(pack.directory, stream, context)) return true;
+    return false;
+  };
+  const auto parameters = [](uint32_t grid, uint32_t region) {
+    ByteWriter writer;
+    BricksLayout{grid, region}.write(writer);
+    return writer.release();
+  };
+  EXPECT_FALSE(refused([](auto&) {}));
+  EXPECT_TRUE(refused([](auto& streams) { streams.pop_back(); })) << "a region without a stream";
+  EXPECT_TRUE(refused([](auto& streams) { streams.push_back(streams.back()); })) << "a region with two";
+  EXPECT_TRUE(refused([](auto& streams) { std::swap(streams[0], streams[1]); })) << "bricks before their grid";
+  EXPECT_TRUE(refused([&](auto& streams) { streams[1].parameters = parameters(0, 99); }));
+  EXPECT_TRUE(refused([&](auto& streams) { streams[1].parameters = parameters(99, 0); }));
+  EXPECT_TRUE(refused([](auto& streams) { streams[1].parameters.pop_back(); }));
+  EXPECT_TRUE(refused([](auto& streams) {
+    for (StreamEntry& entry : streams) entry.length = 1;
+  })) << "more nodes than bytes";
+}
+
 TEST(Codecs, OpenWhatTheCodecByItselfDecodes) {
   const SampleAssets pack;
   std::array<int, 3> kinds{};
@@ -110,6 +190,7 @@ TEST(Codecs, OpenWhatTheCodecByItselfDecodes) {
       case StreamKind::light: compare_light(pack, stream); break;
       case StreamKind::mesh: compare_mesh(pack, stream); break;
       case StreamKind::texture: compare_texture(pack, stream); break;
+      case StreamKind::bricks: FAIL() << "the sample's grid has none apart";
     }
   }
   EXPECT_THAT(kinds, testing::Each(testing::Gt(0))) << "a sample of every kind";

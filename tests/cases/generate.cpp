@@ -71,13 +71,16 @@ Case asset_case_of(const Case& one) {
 }
 
 /// A grid of the lattice codec for the table of codecs.
-Case lattice_case(const LightGrid& grid) {
-  const LatticeStream stream = encode_lattice(grid).value();
+Case lattice_case(const LightGrid& grid, int halvings) {
+  const LatticeStream stream = encode_lattice(grid, {.halvings = halvings}).value();
   ByteWriter parameters;
   stream.layout.write(parameters);
   std::vector<std::vector<uint8_t>> payloads;
   for (const LightBundle& bundle : stream.bundles) payloads.push_back(bundle.payload);
-  return asset_case(StreamKind::light, parameters.release(), {}, std::move(payloads), light_codec_lattice);
+  for (const std::vector<LightBundle>& region : stream.regions)
+    for (const LightBundle& bundle : region) payloads.push_back(bundle.payload);
+  return asset_case(StreamKind::light, parameters.release(), {}, std::move(payloads), light_codec_lattice,
+                    static_cast<uint8_t>(stream.regions.size()));
 }
 
 }  // namespace
@@ -92,7 +95,8 @@ std::vector<Case> generate_cases() {
   for (const uint32_t length : {1u, 32768u, 100000u}) cases.push_back(texture_case(random, length));
   for (size_t i = 0, count = cases.size(); i < count; i++)
     if (cases[i].room != Room::base) cases.push_back(asset_case_of(cases[i]));
-  for (const int bricks : {0, 1, 20}) cases.push_back(lattice_case(bricked_grid(7, bricks)));
+  for (const int bricks : {0, 1, 20}) cases.push_back(lattice_case(bricked_grid(7, bricks), 0));
+  cases.push_back(lattice_case(bricked_grid(4, 60), 2));
   cases.push_back({Room::pack, {make_pack(random_bytes(random, 100), random_streams(seed))}});
   cases.push_back({Room::pack, {sample_pack(sample_scene(2000, 8))}});
   return cases;

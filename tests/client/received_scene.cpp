@@ -221,6 +221,7 @@ ReceivedScene decode_directly(Bytes pack) {
       case StreamKind::mesh: scene.meshes[asset_of_stream(stream)] = decode_mesh(reader, stream); break;
       case StreamKind::light: scene.atlases[asset_of_stream(stream)] = decode_light(reader, stream); break;
       case StreamKind::texture: scene.textures[asset_of_stream(stream)] = decode_texture(reader, stream); break;
+      case StreamKind::bricks: break;  // of grids of slices there are none
     }
   }
   scene.complete = true;

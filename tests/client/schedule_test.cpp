@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lightwell/light/lattice_stream.h"
 #include "tests/client/opened_download.h"
 
 namespace lightwell {
@@ -50,6 +51,23 @@ TEST(Schedule, BenefitsAreMultipliedByWeights) {
   EXPECT_EQ(chosen(streams(), Strategy::interleave, {2.9f, 1}), (Streams{1, 0, 0, 0}));
   EXPECT_EQ(chosen(streams(), Strategy::interleave, {3.1f, 1}), (Streams{0, 0, 0, 1}));
   EXPECT_EQ(chosen(streams(), Strategy::interleave, {1, 0}), (Streams{0, 0, 0, 1})) << "weight 0 comes last";
+}
+
+// Bricks mend the light of their grid, however little each of their streams has: the one in view goes first, after the
+// grid's own nodes, which mend more.
+TEST(Schedule, BricksInViewComeFirstAndAreWorthWhatTheyMendOfTheirGrid) {
+  const auto bricks = [](uint32_t region) {
+    PackStream stream = even_stream(StreamKind::bricks, 3, 0.2f);
+    ByteWriter parameters;
+    BricksLayout{0, region}.write(parameters);
+    stream.parameters = parameters.release();
+    return stream;
+  };
+  const std::vector<PackStream> streams{even_stream(StreamKind::light, 3, 1), bricks(0), bricks(1),
+                                        even_stream(StreamKind::mesh, 9, 1)};
+  EXPECT_EQ(chosen(streams, Strategy::light, {1, 0.01f, 1, 1}), (Streams{0, 2, 1, 3, 3, 3}));
+  EXPECT_EQ(chosen(streams, Strategy::interleave, {1, 0.01f, 1, 1}), (Streams{0, 3, 3, 3, 2, 1}))
+      << "a fifth of the grid's error is less than a third of a mesh's";
 }
 
 TEST(Schedule, StreamsWithoutErrorComeLast) {

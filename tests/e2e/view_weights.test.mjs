@@ -24,7 +24,7 @@ function cube(at, size = 1) {
   return mesh;
 }
 
-/** The weight of each stream: meshes and images, each { mesh, ... }, and grids, each { min, size }. */
+/** The weight of each stream: meshes and images, each { mesh, ... }, and grids, each { min, size, bricks }, with boxes of bricks. */
 function weightsOf({ meshes = [], images = [], grids = [] }) {
   let stream = 0;
   const number = (items, make) => new Map(items.map((item) => [stream++, make(item)]));
@@ -32,8 +32,14 @@ function weightsOf({ meshes = [], images = [], grids = [] }) {
     primitives: number(meshes, ({ mesh, error = 0.01 }) => ({ extension: { error }, meshes: [mesh].flat(), base: null })),
     images: number(images, ({ mesh, previewSize = 16 }) => ({ meshes: [mesh].flat(), previewSize })),
   };
-  const lights = grids.map(({ min, size }) => ({
-    definition: { stream: stream++, min, cell: [size / 8, size / 8, size / 8], nodes: [9, 9, 9] },
+  const lights = grids.map(({ min, size, bricks = [] }) => ({
+    definition: {
+      stream: stream++,
+      min,
+      cell: [size / 8, size / 8, size / 8],
+      nodes: [9, 9, 9],
+      bricks: bricks.map((box) => ({ stream: stream++, ...box })),
+    },
     matrixWorld: new Matrix4(),
   }));
   return viewWeights(opening, lights, CAMERA, HEIGHT)
@@ -86,4 +92,22 @@ test('a light grid counts by the share of it that is seen', () => {
   assert.equal(whole, 1);
   assert.ok(half > 0.02 && half < 0.5, `round the camera ${half}`);
   assert.ok(none > 0 && none < 0.05, `behind ${none}`);
+});
+
+test('of the finer cells of a grid those in sight come first', () => {
+  const [, before, behind, beside] = weightsOf({
+    grids: [
+      {
+        min: [-10, -10, -10],
+        size: 20,
+        bricks: [
+          { min: [-1, -1, -10], max: [1, 1, -8] },
+          { min: [-1, -1, 8], max: [1, 1, 10] },
+          { min: [-10, -1, -1], max: [-8, 1, 1] },
+        ],
+      },
+    ],
+  });
+  assert.equal(before, 1);
+  assert.ok(behind > 0 && behind < 0.05 && beside === behind, `behind ${behind}, beside ${beside}`);
 });

@@ -36,7 +36,7 @@ inline std::vector<PackStream> random_streams(uint64_t seed) {
   Random random(seed, 0);
   std::vector<PackStream> streams;
   for (const uint32_t blocks : {0u, 1u, 63u, 64u, 65u, 128u, 129u, 200u})
-    streams.push_back(random_stream(random, static_cast<StreamKind>(random.below(3)), blocks, 50));
+    streams.push_back(random_stream(random, static_cast<StreamKind>(random.below(stream_kinds)), blocks, 50));
   return streams;
 }
 

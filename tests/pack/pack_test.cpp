@@ -94,7 +94,7 @@ TEST(Pack, TheIdCoversAllThatTheDirectorySaysOfStreams) {
     change(changed[1]);
     EXPECT_TRUE(ids.insert(id_of(changed)).second);
   };
-  expect_another([](PackStream& stream) { stream.kind = static_cast<StreamKind>((int(stream.kind) + 1) % 3); });
+  expect_another([](PackStream& stream) { stream.kind = static_cast<StreamKind>((int(stream.kind) + 1) % stream_kinds); });
   expect_another([](PackStream& stream) { stream.codec++; });
   expect_another([](PackStream& stream) { stream.error++; });
   expect_another([](PackStream& stream) { stream.parameters.push_back(0); });
@@ -181,7 +181,7 @@ TEST(Directory, EveryFieldIsChecked) {
   EXPECT_FALSE(read(32, 2)) << "more streams than there are";
   EXPECT_FALSE(read(32, 0xffffffff));
   constexpr size_t stream = 36;
-  EXPECT_FALSE(read(stream, 3, 1)) << "kind";
+  EXPECT_FALSE(read(stream, stream_kinds, 1)) << "kind";
   EXPECT_TRUE(read(stream + 1, 77, 1)) << "codecs belong to the kinds";
   EXPECT_FALSE(read(stream + 2, 1, 2)) << "reserved";
   EXPECT_FALSE(read(stream + 4, static_cast<uint32_t>(length) + 1)) << "a gap";

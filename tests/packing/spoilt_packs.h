@@ -34,7 +34,7 @@ inline void spoil(std::vector<PackStream>& streams, Random& random) {
       break;
     case 1: stream.parameters.resize(random.below(static_cast<uint32_t>(stream.parameters.size() + 8))); break;
     case 2: stream.blocks[random.below(static_cast<uint32_t>(stream.blocks.size()))].adds += random.below(3); break;
-    case 3: stream.kind = static_cast<StreamKind>(random.below(3)); break;
+    case 3: stream.kind = static_cast<StreamKind>(random.below(stream_kinds)); break;
   }
 }
 

@@ -50,10 +50,10 @@ TEST(UnknownCodec, IsRefusedByVerifyAndUnpack) {
 TEST(UnknownCodec, KindIsRefusedWithTheDirectory) {
   const Packed packed = pack_of_each_kind();
   Directory one = open(packed.file).reader().directory();
-  one.streams[0].kind = static_cast<StreamKind>(3);
+  one.streams[0].kind = static_cast<StreamKind>(stream_kinds);
   const auto read = Directory::read(one.write(), packed.file.size());
   ASSERT_FALSE(read);
-  EXPECT_THAT(read.error().message(), testing::HasSubstr("unknown kind 3"));
+  EXPECT_THAT(read.error().message(), testing::HasSubstr("unknown kind 4"));
 }
 
 }  // namespace

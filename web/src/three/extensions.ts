@@ -48,6 +48,8 @@ export interface LightGridDefinition {
   contains?: string[];
   /** Of the lamps whose light it holds. Absent: of all. */
   group?: string;
+  /** Streams of its finer cells, each of those in a box. */
+  bricks?: { stream: number; min: Triple; max: Triple }[];
 }
 
 export interface LampDefinition {

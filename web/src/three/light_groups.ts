@@ -151,7 +151,8 @@ class SummedGrid {
 
   add(definition: LightGridDefinition, state: LightEvent): void {
     const contains = [...new Set([...(this.definition.contains ?? []), ...(definition.contains ?? [])])];
-    this.definition = { ...this.definition, contains };
+    const bricks = [...new Set([...(this.definition.bricks ?? []), ...(definition.bricks ?? [])])];
+    this.definition = { ...this.definition, contains, bricks };
     this.#parts.set(state.asset, { names: partsOfGrid(definition), state });
     this.#check(state);
   }

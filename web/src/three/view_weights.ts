@@ -6,15 +6,17 @@ import type { Opening, ProgressiveImage, ProgressivePrimitive } from './opening.
 
 /** Weight of what is out of sight, relative to the same in sight: it comes late, not never. */
 const OUT_OF_SIGHT = 0.01;
-/** Number of places on each axis at which a grid is tested for being in sight. */
+/** Number of places on each axis at which a box is tested for being in sight. */
 const PLACES = 5;
+
+type Bounds = Pick<NonNullable<LightGridDefinition['bricks']>[number], 'min' | 'max'>;
 
 export type AssetWeight = [asset: number, weight: number];
 
 /**
  * How much the assets matter to a picture: of a mesh its coarsest level's error, of an image the size of its preview's texels,
- * both in pixels and times the share of the picture that the object covers, the largest being 1; of a light grid the share of it
- * that is seen.
+ * both in pixels and times the share of the picture that the object covers, the largest being 1; of a light grid, and of those of its finer
+ * cells that have a stream of their own, the share of their box that is seen.
  */
 export function viewWeights(
   opening: Pick<Opening, 'primitives' | 'images'>,
@@ -30,7 +32,10 @@ export function viewWeights(
   const largest = Math.max(Number.MIN_VALUE, ...geometry.map(([, weight]) => weight));
   return [
     ...geometry.map(([asset, weight]): AssetWeight => [asset, weight / largest]),
-    ...grids.map((grid): AssetWeight => [assetOf(grid.definition), view.ofGrid(grid.definition, grid.matrixWorld)]),
+    ...grids.flatMap(({ definition, matrixWorld }) => [
+      [assetOf(definition), view.ofBox(boxOfGrid(definition), matrixWorld)] as AssetWeight,
+      ...(definition.bricks ?? []).map((bricks): AssetWeight => [assetOf(bricks), view.ofBox(bricks, matrixWorld)]),
+    ]),
   ];
 }
 
@@ -60,12 +65,12 @@ class View {
     return this.#errorOf(mesh, boxOf(mesh).getSize(new Vector3()).length() / previewSize);
   }
 
-  ofGrid({ min, cell, nodes }: LightGridDefinition, toWorld: Matrix4): number {
+  ofBox({ min, max }: Bounds, toWorld: Matrix4): number {
     let seen = 0;
     for (let i = 0; i < PLACES ** 3; i++) {
       const place = [i, i / PLACES, i / PLACES ** 2].map((step, axis) => {
         const share = (Math.floor(step) % PLACES) / (PLACES - 1);
-        return min[axis]! + share * (nodes[axis]! - 1) * cell[axis]!;
+        return min[axis]! + share * (max[axis]! - min[axis]!);
       });
       if (this.#frustum.containsPoint(new Vector3(...place).applyMatrix4(toWorld))) seen++;
     }
@@ -82,6 +87,11 @@ class View {
     return pixels * share * (this.#frustum.intersectsBox(box) ? 1 : OUT_OF_SIGHT);
   }
 }
+
+const boxOfGrid = ({ min, cell, nodes }: LightGridDefinition): Bounds => ({
+  min,
+  max: min.map((lo, axis) => lo + (nodes[axis]! - 1) * cell[axis]!) as Bounds['max'],
+});
 
 /** The bounds of a mesh in the world. */
 function boxOf(mesh: Mesh): Box3 {

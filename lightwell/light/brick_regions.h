@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "lightwell/light/bricks.h"
+
+namespace lightwell {
+
+/// Bricks that lie together, of all levels: those begin ... end-1 of a tree.
+struct BrickRegion {
+  uint32_t begin = 0, end = 0;
+  Vec3i lo{}, hi{};  ///< a box of cells of the grid that holds them, hi not within
+
+  uint32_t count() const { return end - begin; }
+};
+
+/// A tree whose bricks come region by region, and its regions: as they are streamed, so that what is in view comes
+/// first. Empty regions there are not.
+struct BrickRegions {
+  static constexpr int most_halvings = 6;
+
+  BrickTree tree;
+  std::vector<BrickRegion> regions;
+
+  /// Halves the space `halvings` times so that as many bricks lie to both sides, between bricks of level 1, which keep
+  /// what they hold. In a region, bricks come level by level, as in BrickTree::ordered.
+  static BrickRegions split(const BrickTree& tree, int halvings);
+};
+
+}  // namespace lightwell
