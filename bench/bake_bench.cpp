@@ -159,6 +159,35 @@ bool at_nodes(const std::string& path) {
   return true;
 }
 
+size_t bytes_of(const std::vector<LightBundle>& bundles) {
+  size_t bytes = 0;
+  for (const LightBundle& bundle : bundles) bytes += bundle.payload.size();
+  return bytes;
+}
+
+/// What it costs to give regions of bricks streams of their own: bytes of a default bake's light.
+bool regions(const std::string& path) {
+  const std::optional<Room> loaded = load_room(path);
+  if (!loaded) return false;
+  Progress silent;
+  LightBakeStatistics statistics;
+  const auto grids = bake_light(*loaded->world, {}, silent, statistics);
+  if (!grids) return std::fprintf(stderr, "%s\n", grids.error().message().c_str()), false;
+  for (int halvings = 0; halvings <= BrickRegions::most_halvings; halvings++) {
+    const LatticeStream stream = encode_lattice(grids->front().grid, {.halvings = halvings}).value();
+    const size_t own = bytes_of(stream.bundles);
+    size_t apart = 0, largest = 0;
+    for (const std::vector<LightBundle>& region : stream.regions) {
+      apart += bytes_of(region);
+      largest = std::max(largest, bytes_of(region));
+    }
+    std::printf("| %s | %zu | %zu | %zu | %zu |\n", path.substr(path.rfind('/') + 1).c_str(), stream.regions.size(),
+                own, largest, own + apart);
+  }
+  std::fflush(stdout);
+  return true;
+}
+
 struct Candidate {
   const EstimatorKind* kind;
   uint64_t photons;
@@ -209,11 +238,19 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
 int main(int count, char** arguments) {
   using namespace lightwell;
   if (count < 2)
-    return std::fprintf(stderr, "usage: bake_bench [--prefixes] FOLDER, or bake_bench --nodes SCENE...\n"), 1;
+    return std::fprintf(stderr, "usage: bake_bench [--prefixes] FOLDER, or bake_bench --nodes|--regions SCENE...\n"), 1;
   if (std::string(arguments[1]) == "--nodes") {
     std::printf("| scene | nodes | processor seconds | error at the nodes %% |\n|---|---|---|---|\n");
     for (int i = 2; i < count; i++)
       if (!at_nodes(arguments[i])) return 1;
+    return 0;
+  }
+  if (std::string(arguments[1]) == "--regions") {
+    std::printf(
+        "| scene | regions apart | bytes of the grid's own stream | of the largest region | of all "
+        "|\n|---|---|---|---|---|\n");
+    for (int i = 2; i < count; i++)
+      if (!regions(arguments[i])) return 1;
     return 0;
   }
   const EstimatorKind printed{"faces, as printed", "", false, make_printed_face_estimator};

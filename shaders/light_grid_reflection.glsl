@@ -19,6 +19,18 @@
 		#endif
 		radiance += getLightProbeGridRadiance( transformDirectionByInverseViewMatrix( reflect( - geometryViewDir, geometryNormal ), viewMatrix ) );
 
+		// What a rough surface reflects more than once comes from everywhere. three.js takes it from the irradiance of environments
+		// alone, without which rough metals and the rims of everything are too dark; here it is part of what is reflected once.
+		vec3 onceByDielectric = vec3( 0.0 );
+		vec3 onceByMetal = vec3( 0.0 );
+		vec3 moreByDielectric = vec3( 0.0 );
+		vec3 moreByMetal = vec3( 0.0 );
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, onceByDielectric, moreByDielectric );
+		computeMultiscattering( material.dfg, material.diffuseColor, material.specularF90, onceByMetal, moreByMetal );
+		vec3 once = mix( onceByDielectric, onceByMetal, material.metalness );
+		vec3 more = mix( moreByDielectric, moreByMetal, material.metalness );
+		radiance += more / max( once, vec3( 1e-4 ) ) * getLightProbeGridRadiance( transformDirectionByInverseViewMatrix( geometryNormal, viewMatrix ) );
+
 	#endif
 
 #endif

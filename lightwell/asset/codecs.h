@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <memory>
+#include <vector>
 
 #include "lightwell/asset/asset.h"
 #include "lightwell/light/push_pull.h"
@@ -17,7 +17,7 @@ struct AssetContext {
   Bytes bin;                            ///< the data of the opening's BIN chunk
   Fill fill = Fill::push_pull;          ///< how nodes of a light grid that have not arrived are filled
   uint64_t budget = uint64_t(3) << 30;  ///< bytes left for buffers, out of a WebAssembly module's 4 GiB
-  std::map<uint32_t, std::shared_ptr<LatticeDecoder>> lattices{};  ///< of the light streams that are open, by stream
+  std::vector<std::shared_ptr<LatticeDecoder>> lattices{};  ///< of the light streams that are open, by stream
 
   /// Takes bytes from the budget; fails when fewer are left.
   Result<void> spend(uint64_t bytes);

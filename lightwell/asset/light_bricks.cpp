@@ -27,12 +27,13 @@ class LightBricks final : public AssetDecoder {
 
 Result<std::unique_ptr<AssetDecoder>> open_light_bricks(const AssetSource& source) {
   LW_TRY(layout, BricksLayout::read(source.entry.parameters));
-  const auto grid = source.context.lattices.find(layout.grid);
-  if (grid == source.context.lattices.end()) return fail("bricks parameters", "name no grid before them");
-  const LatticeLayout& of_grid = grid->second->layout();
+  const auto& lattices = source.context.lattices;
+  const std::shared_ptr<LatticeDecoder> grid = layout.grid < lattices.size() ? lattices[layout.grid] : nullptr;
+  if (!grid) return fail("bricks parameters", "name no grid before them");
+  const LatticeLayout& of_grid = grid->layout();
   if (!of_grid.apart() || layout.region >= of_grid.regions.size())
     return fail("bricks parameters", "name a region that the grid does not have");
-  return std::make_unique<LightBricks>(grid->second, layout.region);
+  return std::make_unique<LightBricks>(grid, layout.region);
 }
 
 }  // namespace lightwell

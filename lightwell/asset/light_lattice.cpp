@@ -60,6 +60,7 @@ Result<std::unique_ptr<AssetDecoder>> open_light_lattice(const AssetSource& sour
   LW_TRY(bytes, bytes_of_bricks(source, layout));
   LW_TRY(opened, LatticeDecoder::open(source.entry.parameters, source.entry.length + bytes));
   const auto decoder = std::make_shared<LatticeDecoder>(std::move(opened));
+  source.context.lattices.resize(source.directory.streams.size());
   source.context.lattices[source.asset] = decoder;
   return std::make_unique<LightLattice>(source.asset, source.context.fill, decoder);
 }

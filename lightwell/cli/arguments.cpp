@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "lightwell/base/file.h"
 #include "lightwell/scene/physical_sky.h"
@@ -55,6 +56,35 @@ void add_image_limit_option(CLI::App& command, ImageLimit& limit) {
       ->default_str(std::to_string(limit.pixels >> shift));
 }
 
+/// Adds --up, --front, --rotate and --unit.
+void add_orientation_options(CLI::App& command, Orientation& orientation) {
+  const std::vector<std::pair<std::string, AxisDirection>> directions = {
+      {"x", {0, false}}, {"-x", {0, true}}, {"y", {1, false}}, {"-y", {1, true}}, {"z", {2, false}}, {"-z", {2, true}}};
+  add_choice<AxisDirection>(command, "--up", orientation.up, directions, "Where the file has up");
+  std::vector<std::pair<std::string, std::optional<AxisDirection>>> fronts(directions.begin(), directions.end());
+  add_choice<std::optional<AxisDirection>>(
+      command, "--front", orientation.front, fronts,
+      "Where the front of the file's object faces, which is seen first (default: z, of files with z up -y)");
+  const auto take_angles = [&orientation](const std::string& text) -> Result<void> {
+    std::istringstream words(text);
+    std::string word;
+    Vec3d angles{};
+    int count = 0;
+    for (; std::getline(words, word, ','); count++) {
+      if (count == 3) break;
+      LW_TRY(angle, parse_number(word, {-360, 360}));
+      angles[count] = angle;
+    }
+    if (count != 3 || std::getline(words, word, ',') || text.back() == ',')
+      return fail(text, "is not X,Y,Z (three angles in degrees, such as 0,90,0)");
+    orientation.rotate = angles;
+    return {};
+  };
+  add_text(command, "--rotate", "X,Y,Z", take_angles,
+           "Degrees by which the file is turned about its x axis, then y, then z, before --up and --front");
+  add_number(command, "--unit", orientation.unit, unit_range, "Length of the file's unit in metres")->default_str("1");
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help) {
@@ -75,9 +105,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   add_optional_number(command, "--sky", options.sky, {least_turbidity, most_turbidity}, usual_turbidity,
                       "Light from the clear sky around the scene's sun, more or less hazy: turbidity, 1 to 10")
       ->excludes(environment);
-  add_choice<char>(command, "--up", options.import.up, {{"y", 'y'}, {"z", 'z'}}, "The file's axis that points up");
-  add_number(command, "--unit", options.import.unit, unit_range, "Length of the file's unit in metres")
-      ->default_str("1");
+  add_orientation_options(command, options.import.orientation);
   command
       .add_option("--scene", options.import.scene,
                   "Name or number of the file's scene that is shown (default: its own choice)")

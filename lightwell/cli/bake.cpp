@@ -72,8 +72,8 @@ void advise_on_unit(const Box3f& focus, Report& report) {
 }
 
 void advise_on_conventions(const ImportOptions& asked, const World& world, Report& report) {
-  if (asked.unit == 1) advise_on_unit(world.surfaces().focus(), report);
-  if (asked.up == 'y' && seems_z_up(world.scene()))
+  if (asked.orientation.unit == 1) advise_on_unit(world.surfaces().focus(), report);
+  if (asked.orientation.up == Orientation().up && asked.orientation.rotate == Vec3d{} && seems_z_up(world.scene()))
     report.warn("the scene seems to lie on its side: if the file's z axis points up, --up z says so");
 }
 
@@ -282,7 +282,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   CLI::App* command =
       program.add_subcommand("bake", "Imports a scene, traces its light, orders its meshes, writes a pack");
   add_output(*command, options->output, {".glb"}, "The pack to write, FILE.glb; - is stdout")->required();
-  add_scene_options(*command, options->scene, "A glTF, OBJ, PLY, STL or Draco file, a pack, or a built-in scene");
+  add_scene_options(*command, options->scene, "A glTF, OBJ, PLY, STL or Draco file, a pack, or a built-in scene; - is stdin");
   add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
              "How far a vertex may move at most, in metres (default: a 32,000th of its mesh's longest side)");
   add_choice<LightNodeOrder>(

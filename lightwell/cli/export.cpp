@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/cli/input_file.h"
 #include "lightwell/cli/light_source.h"
 #include "lightwell/cli/pack_name.h"
 #include "lightwell/packing/light_volume.h"
@@ -93,7 +94,7 @@ CLI::App* add_export(CLI::App& program, Console& console, std::function<int()>& 
   auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("export", "Writes the geometry of a pack at a level, or its light, as ordinary files");
-  command->add_option("pack", options->pack, "A pack")->required()->type_name("");
+  command->add_option("pack", options->pack, "A pack; - is stdin")->required()->type_name("");
   add_output(*command, options->output, {".glb", ".ply"}, "The geometry: FILE.glb, FILE.ply, or - for a GLB on stdout");
   add_level_option(*command, options->level, "The coarsest level with at least this share of the final faces, 0 to 1");
   add_number(*command, "--error", options->level.error, {0, 1e9},

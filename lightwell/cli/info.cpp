@@ -3,6 +3,7 @@
 #include "lightwell/asset/mesh_asset.h"
 #include "lightwell/cli/command.h"
 #include "lightwell/cli/info_text.h"
+#include "lightwell/cli/input_file.h"
 #include "lightwell/cli/pack_name.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/opened_pack.h"
@@ -56,7 +57,7 @@ Result<Figures> grid_figures(const OpenedPack& pack, const GridDescription& grid
 
 Result<Figures> describe(const std::string& path, bool blocks) {
   LW_CHECK(refuse_builtin_scene(path));
-  LW_TRY(pack, OpenedPack::open_file(path));
+  LW_TRY(pack, with_input(path, OpenedPack::open_file));
   const Directory& directory = pack.reader().directory();
   const Json& json = pack.json();
   const Json& scenes = member(json, "scenes");
@@ -90,7 +91,7 @@ CLI::App* add_info(CLI::App& program, Console& console, std::function<int()>& ch
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("info", "Tells what is in a pack");
-  command->add_option("pack", options->pack, "A pack")->required()->type_name("");
+  command->add_option("pack", options->pack, "A pack; - is stdin")->required()->type_name("");
   command->add_flag("--blocks", options->blocks,
                     "Every block, too: what it adds (vertices, nodes or bytes), and the error after it");
   command->footer("Example:\n  lightwell info room.lw.glb");

@@ -5,6 +5,7 @@
 
 #include "lightwell/bake/sky_dome.h"
 #include "lightwell/bake/turned.h"
+#include "lightwell/cli/input_file.h"
 #include "lightwell/cli/memory_limit.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/render/overview.h"
@@ -43,22 +44,21 @@ Result<void> surround(Scene& scene, const SceneOptions& options) {
   return {};
 }
 
-// Refuses --up, --unit, --lamp-units and --scene for packs and built-in scenes, which have their own.
+// Refuses --up, --front, --rotate, --unit, --lamp-units and --scene for packs and built-in scenes, which have their
+// own.
 Result<void> refuse_conventions(const std::string& path, const ImportOptions& asked) {
-  const ImportOptions own;
   if (!asked.scene.empty()) return fail({path, "", "holds one scene; --scene is for files of other programs"});
   if (asked.lamp_units == LampUnits::photometric)
     return fail({path, "", "has lamps in watts; --lamp-units is for files of other programs"});
-  if (asked.up == own.up && asked.unit == own.unit) return {};
-  return fail({path, "", "is in metres with y up; --up and --unit are for files of other programs"});
+  if (asked.orientation.none()) return {};
+  return fail({path, "", "is in metres with y up; --up, --front, --rotate and --unit are for files of other programs"});
 }
 
-}  // namespace
-
-Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level) {
-  const std::string& path = options.path;
+Result<OpenedScene> open_named(const std::string& path, const SceneOptions& options, Report& report,
+                               const MeshLevel& level) {
   if (options.memory_limit > 0) limit_memory(options.memory_limit);
   const bool pack = is_pack_file(path);
+  if (!options.import.orientation.possible()) return fail("--front", "lies along --up: give another axis");
   if (pack || find_builtin_scene(path) != nullptr) LW_CHECK(refuse_conventions(path, options.import));
   auto opened = pack ? open_pack(path, level, options.import.images, report) : open_other(path, options.import, report);
   if (!opened) return fail(in_file(opened.error(), path));
@@ -68,6 +68,15 @@ Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, cons
   if (pack && contents_of(opened->pack->grids()).environment && EnvironmentLight(opened->scene.environment).black())
     report.warn("environment: the pack has its light but not its picture: give it with --environment");
   return opened;
+}
+
+}  // namespace
+
+Result<OpenedScene> open_scene(const SceneOptions& options, Report& report, const MeshLevel& level) {
+  LW_TRY(opened,
+         with_input(options.path, [&](const std::string& path) { return open_named(path, options, report, level); }));
+  if (options.path == "-") opened.scene.name = "stdin";
+  return std::move(opened);
 }
 
 Result<std::unique_ptr<const World>> ready(OpenedScene& opened, int threads, Progress& progress, Report& report) {

@@ -82,7 +82,7 @@ CLI::App* add_probe(CLI::App& program, Console& console, std::function<int()>& c
             "Bounces between source and point; 0 is direct light only");
   add_light_level_options(*command, options->light_level);
   add_light_group_option(*command, options->factors);
-  add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
+  add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene; - is stdin");
   command->footer("Example:\n  lightwell probe room.glb --points points.csv --integrator ivg > irradiance.csv");
   command->callback([=, &console, &chosen] { chosen = [=, &console] { return probe_scene(*options, console); }; });
   return command;

@@ -155,7 +155,7 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
                    "Of a pack: the coarsest level with at least this share of the faces, 0 to 1");
   add_light_level_options(*command, options->light_level);
   add_light_group_option(*command, options->factors);
-  add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene");
+  add_scene_options(*command, options->scene, "A scene file, a pack, or a built-in scene; - is stdin");
   command->footer(
       "Examples:\n  lightwell render room.glb --spp 256 -o room.png\n"
       "  lightwell render room.lw.glb --integrator ivg --only indirect -o indirect.exr");

@@ -23,9 +23,9 @@ struct BrickRegions {
   BrickTree tree;
   std::vector<BrickRegion> regions;
 
-  /// Halves the space `halvings` times so that as many bricks lie to both sides, between bricks of level 1, which keep
-  /// what they hold. In a region, bricks come level by level, as in BrickTree::ordered.
-  static BrickRegions split(const BrickTree& tree, int halvings);
+  /// Of a tree in the order of BrickTree::ordered, which regions keep. Halves space `halvings` times, so that about as
+  /// many bricks lie to both sides, by planes between bricks of level 1, which keep what they hold.
+  static BrickRegions split(const BrickTree& ordered, int halvings);
 };
 
 }  // namespace lightwell

@@ -211,7 +211,7 @@ void BricksLayout::write(ByteWriter& writer) const {
 }
 
 int halvings_for(const LightGrid& grid) {
-  constexpr size_t most_nodes = 4096;
+  constexpr size_t most_nodes = 16384;
   size_t nodes = BrickNodes(grid.tree).nodes().size();
   int halvings = 0;
   for (; nodes > most_nodes && halvings < BrickRegions::most_halvings; nodes /= 2) halvings++;
@@ -233,7 +233,7 @@ Result<LatticeStream> encode_lattice(const LightGrid& grid, const LatticeStreamO
   layout.record = options.record;
   layout.steps = options.steps > 0 ? options.steps : steps_for(grid);
   layout.halvings = options.halvings >= 0 ? options.halvings : halvings_for(grid);
-  BrickRegions split = BrickRegions::split(grid.tree, layout.halvings);
+  BrickRegions split = BrickRegions::split(grid.tree.ordered(), layout.halvings);
   layout.tree = std::move(split.tree);
   layout.regions = std::move(split.regions);
   layout.links = write_links(grid);

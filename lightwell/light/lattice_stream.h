@@ -76,7 +76,7 @@ struct LatticeStreamOptions {
 /// out.
 int steps_for(const LightGrid& grid);
 
-/// Regions of 4,096 nodes or less, 15 kB: a smaller one costs more bytes than a picture is the sooner lit for.
+/// Into regions of 16,384 nodes, 60 kB, or less: smaller ones cost more bytes than they spare who sees one of them.
 int halvings_for(const LightGrid& grid);
 
 /// Encodes a whole grid. Fails for shapes beyond the limits of LightLayout and LatticeLayout.

@@ -22,8 +22,8 @@ Result<void> choose_scene(Document& document, const std::string& choice, Report&
 /// Tells `report` of a document's variants (KHR_materials_variants): the materials that primitives name are baked.
 void name_variants(const Json& document, Report& report);
 
-/// Turns a document whose `up` axis is 'y' or 'z' and whose unit is `unit` metres into one in metres with y up, by a
-/// root node above all others. A document that is in metres with y up stays as it is.
-void reorient(Document& document, char up, float unit);
+/// Turns a document into one in metres with y up, by a root node above all others. One that is so already stays as it
+/// is.
+void reorient(Document& document, const Orientation& orientation);
 
 }  // namespace lightwell

@@ -98,7 +98,7 @@ Result<Scene> load_file(const std::filesystem::path& path, const ImportOptions& 
   LW_CHECK(choose_scene(document, options.scene, report));
   name_variants(document.json, report);
   make_lamps_radiometric(document, options.lamp_units, report);
-  reorient(document, options.up, options.unit);
+  reorient(document, options.orientation);
   make_images_plain(document, options.images);
   return scene_from_document(std::move(document), scene_name(path), report, {}, options.images);
 }

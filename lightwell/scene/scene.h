@@ -8,6 +8,7 @@
 #include "lightwell/base/transform.h"
 #include "lightwell/gltf/document.h"
 #include "lightwell/mesh/mesh.h"
+#include "lightwell/scene/orientation.h"
 #include "lightwell/texture/image.h"
 
 namespace lightwell {
@@ -123,8 +124,7 @@ struct Scene {
 enum class LampUnits { automatic, radiometric, photometric };
 
 struct ImportOptions {
-  char up = 'y';           ///< the axis of the file that points up: 'y' or 'z'
-  float unit = 1;          ///< length of the file's unit in metres
+  Orientation orientation = {};
   uint64_t seed = 1;       ///< of built-in scenes
   std::string scene = {};  ///< name or number of the scene in a glTF that is shown; empty: its default one
   ImageLimit images = {};  ///< of each

@@ -97,7 +97,8 @@ TraceScene::~TraceScene() {
 
 Result<void> TraceScene::commit(int threads) {
   device_ = rtcNewDevice(threads > 0 ? ("threads=" + std::to_string(threads)).c_str() : nullptr);
-  if (!device_) return fail(ErrorKind::io, "Embree", "cannot start");
+  if (!device_)
+    return fail(ErrorKind::limit, "Embree", "cannot start: too little memory, or too few threads, are left for it");
   embree_ = rtcNewScene(device_);
   rtcSetSceneFlags(embree_, RTC_SCENE_FLAG_ROBUST);
   for (const Instance& instance : scene_.instances) uses_[static_cast<size_t>(instance.primitive)]++;

@@ -62,7 +62,7 @@ TEST_F(Help, BashCompletesCommandsOptionsAndChoices) {
     for (const std::string& option : options(run(command + " --help").out))
       EXPECT_TRUE(names.contains(option)) << command << " " << option;
   }
-  EXPECT_EQ(completed({"lightwell", "bake", "--up", ""}), (std::set<std::string>{"y", "z"}));
+  EXPECT_EQ(completed({"lightwell", "bake", "--up", ""}), (std::set<std::string>{"x", "-x", "y", "-y", "z", "-z"}));
   EXPECT_EQ(completed({"lightwell", "bake", "--seed", "1", "--grid", "a"}), std::set<std::string>{"auto"});
   // A file's name, which bash itself completes where nothing is offered.
   EXPECT_EQ(completed({"lightwell", "bake", "-o", ""}), std::set<std::string>{});

@@ -2,7 +2,7 @@
 //
 // The tarball in projects of other people: installed, built as their tool is used, opened, and no file copied by hand.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { lstatSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { spawn } from 'node:child_process';
 import { launch, openPage } from './browser.mjs';
@@ -48,6 +48,13 @@ test('Vite, built', async (t) => {
   write(project, { 'index.html': document('<script type="module" src="/main.js"></script>') });
   run(project, 'npx', 'vite', 'build', '--outDir', 'by-vite', '--logLevel', 'error');
   await assertBuilt(t, `${project}/by-vite`);
+});
+
+test('another package that is installed later leaves it where it is', async (t) => {
+  run(project, 'npm', 'install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel=error', 'tslib');
+  assert.ok(lstatSync(`${project}/node_modules/lightwell`).isDirectory(), 'a link leads out of the project, where Vite serves nothing');
+  run(project, 'npx', 'vite', 'build', '--outDir', 'by-vite-again', '--logLevel', 'error');
+  await assertBuilt(t, `${project}/by-vite-again`);
 });
 
 test('Vite, while it is worked on', async (t) => {

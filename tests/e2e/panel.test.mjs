@@ -213,3 +213,40 @@ test('the switches of measuring and of the raking light follow the element', asy
   await page.waitForFunction(() => !document.querySelector('#measure').checked);
   assert.deepEqual(errors, []);
 });
+
+/** What WCAG 2.1 asks of text of any size (1.4.3). */
+const READABLE = 4.5;
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`the panel is ${colorScheme} for who wants it, and can be read`, async (t) => {
+    const server = await forTest(t, startStaticServer({ ...viewerPage('/room.lw.glb'), '/room.lw.glb': PACK }));
+    const { page } = await forTest(t, openPage(browser, WIDE));
+    await page.emulateMedia({ colorScheme });
+    await page.goto(server.url);
+    await complete(page);
+    const { ground, contrasts } = await page.evaluate(() => {
+      const canvas = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+      const over = (...colors) => {
+        for (const color of colors) {
+          canvas.fillStyle = color;
+          canvas.fillRect(0, 0, 1, 1);
+        }
+        return [...canvas.getImageData(0, 0, 1, 1).data];
+      };
+      const luminance = (color) => {
+        const [r, g, b] = color.slice(0, 3).map((x) => (x / 255 <= 0.04045 ? x / 255 / 12.92 : ((x / 255 + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+      };
+      const ratio = (a, b) => (Math.max(luminance(a), luminance(b)) + 0.05) / (Math.min(luminance(a), luminance(b)) + 0.05);
+      const names = getComputedStyle(document.documentElement);
+      const color = (name) => names.getPropertyValue(name);
+      const panel = over(color('--ground'), color('--panel'));
+      return {
+        ground: luminance(over(color('--ground'))),
+        contrasts: ['--text', '--quiet'].map((name) => [name, ratio(over(color(name)), panel)]),
+      };
+    });
+    assert.equal(ground > 0.5, colorScheme === 'light', `${ground}`);
+    for (const [name, contrast] of contrasts) assert.ok(contrast >= READABLE, `${name}: ${contrast}`);
+  });
+}

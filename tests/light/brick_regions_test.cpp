@@ -36,7 +36,7 @@ TEST(BrickRegions, HoldEveryBrickOnceWithWhatLiesAroundIt) {
   for (uint64_t seed = 0; seed < 20; seed++) {
     const LightGrid grid = bricked_grid(seed, 60);
     for (int halvings = 0; halvings <= BrickRegions::most_halvings; halvings++) {
-      const BrickRegions split = BrickRegions::split(grid.tree, halvings);
+      const BrickRegions split = BrickRegions::split(grid.tree.ordered(), halvings);
       ASSERT_EQ(split.tree.bricks().size(), grid.tree.bricks().size()) << "parents come first, or they are not added";
       for (const Brick& brick : grid.tree.bricks()) EXPECT_TRUE(split.tree.find(brick));
       EXPECT_LE(split.regions.size(), size_t(1) << halvings);
@@ -62,8 +62,8 @@ TEST(BrickRegions, HoldEveryBrickOnceWithWhatLiesAroundIt) {
 TEST(BrickRegions, AreOfLikeSize) {
   BrickTree tree(Vec3i::filled(32));
   for (int i = 0; i < 16 * 16 * 16; i++) tree.add({.level = 1, .at = {{i % 16, i / 16 % 16, i / 256}}});
-  for (const BrickRegion& region : BrickRegions::split(tree, 3).regions) EXPECT_EQ(region.count(), 512u);
-  const std::vector<BrickRegion> whole = BrickRegions::split(tree, 0).regions;
+  for (const BrickRegion& region : BrickRegions::split(tree.ordered(), 3).regions) EXPECT_EQ(region.count(), 512u);
+  const std::vector<BrickRegion> whole = BrickRegions::split(tree.ordered(), 0).regions;
   ASSERT_EQ(whole.size(), 1u);
   EXPECT_EQ(whole.front().count(), 4096u);
 }

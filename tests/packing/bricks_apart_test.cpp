@@ -12,13 +12,13 @@
 namespace lightwell {
 namespace {
 
-/// Of 8,000 nodes.
+/// Of 20,000 nodes.
 LightGrid large_grid(const Box3f& bounds) {
   GridShape shape = GridShape::over(bounds, 9);
   shape.nodes = Vec3i::filled(9);
   BrickTree tree(shape.cells());
   for (int i = 0; i < 64; i++) tree.add({.level = 1, .at = {{i % 4, i / 4 % 4, i / 16}}});
-  for (int i = 0; i < 64; i++) tree.add({.level = 2, .at = {{i % 4, i / 4 % 4, i / 16}}});
+  for (int i = 0; i < 256; i++) tree.add({.level = 2, .at = {{i % 8, i / 8 % 8, i / 64}}});
   const Vec3f size = shape.hi() - shape.lo;
   return grid_of_field(shape, tree, [&](const Vec3f& p) {
     const Vec3f share = (p - shape.lo) / size;

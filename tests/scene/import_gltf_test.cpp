@@ -497,7 +497,7 @@ TEST(ImportGltf, CamerasAndTheSkyAreRead) {
 
 TEST(Reorient, TurnsZUpAndScales) {
   Document document = scene_document(R"([{"mesh": 0}, {"mesh": 0, "translation": [0, 0, 1]}])", {0, 1});
-  reorient(document, 'z', 0.5f);
+  reorient(document, {.up = {.axis = 2}, .front = {}, .unit = 0.5f});
   const Scene scene = import(document);
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_EQ(scene.instances[0].to_scene.point(Vec3f{{1, 2, 3}}), (Vec3f{{0.5f, 1.5f, -1}}));
@@ -509,10 +509,10 @@ TEST(Reorient, TurnsZUpAndScales) {
 TEST(Reorient, ChangesNothingWhereNothingIsToDo) {
   Document document = scene_document(R"([{"mesh": 0}])", {0});
   const Json before = document.json;
-  reorient(document, 'y', 1);
+  reorient(document, {});
   EXPECT_EQ(document.json, before);
   Document empty;
-  reorient(empty, 'z', 2);
+  reorient(empty, {.up = {.axis = 2}, .front = {}, .unit = 2});
   EXPECT_EQ(empty.json, Document().json);
 }
 
