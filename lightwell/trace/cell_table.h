@@ -31,6 +31,7 @@ class CellTable {
     while (entries_[i].cell != 0) i = next(i);
     entries_[i] = {cell, colour};
   }
+  size_t bytes() const { return entries_.capacity() * sizeof(Entry); }
   /// nullptr: it is not there.
   const Vec3f* find(uint64_t cell) const {
     for (size_t i = first(cell); entries_[i].cell != 0; i = next(i))

@@ -308,6 +308,13 @@ void SurfaceCache::finish() {
       mean += (irradiance_[number] - mean) / ++counts[key];
     }
   }
+  numbers_ = {};
+}
+
+size_t SurfaceCache::bytes() const {
+  // A bucket holds, beside its value, how far it is from its place.
+  constexpr size_t bucket = sizeof(decltype(parents_)::value_type) + sizeof(uint64_t);
+  return irradiance_.capacity() * sizeof(Vec3f) + light_.bytes() + parents_.bucket_count() * bucket;
 }
 
 Vec3f SurfaceCache::of_cell(uint64_t cell) const {

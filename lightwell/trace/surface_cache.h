@@ -47,6 +47,8 @@ class SurfaceCache {
   uint64_t fingerprint(uint64_t seed) const;
 
   size_t cells() const { return irradiance_.size(); }
+  /// The memory that it keeps.
+  size_t bytes() const;
   /// Rays that it took.
   uint64_t rays() const { return rays_; }
 

@@ -7,6 +7,7 @@
 
 #include "tests/light/light_fields.h"
 #include "tests/light/stream_parts.h"
+#include "tests/trace/chi_square.h"
 
 namespace lightwell {
 namespace {
@@ -34,6 +35,21 @@ TEST(LightOrder, SendsEveryNodeOnceAndSlicesAlike) {
       in_slice[static_cast<size_t>(shape.node(order.nodes[k])[axis])]++;
     for (size_t s = 1; order.ends.size() > 1 && s + 1 < in_slice.size(); s++) EXPECT_EQ(in_slice[s], per_slice);
   }
+}
+
+// Within a slice any node may come first, and any second: 8 x 8 nodes of each of 12 slices, shuffled 2,000 times.
+TEST(LightOrder, ShufflesSlicesEvenly) {
+  const GridShape shape{.lo = {}, .cell = Vec3f::filled(1), .nodes = {{8, 8, 14}}};
+  std::vector<int> first(64), second(64);
+  for (uint64_t seed = 0; seed < 2000; seed++) {
+    const LightOrder order = light_order(shape, seed, 1);
+    for (size_t slice = 1; slice + 1 < 14; slice++) {
+      first[order.nodes[slice] % 64]++;
+      second[order.nodes[order.ends[0] + slice] % 64]++;
+    }
+  }
+  EXPECT_GT(chi_square_of_equal_bins(first), least_probability);
+  EXPECT_GT(chi_square_of_equal_bins(second), least_probability);
 }
 
 TEST(LightStream, ReturnsTheRecordsOfEveryNode) {

@@ -6,6 +6,7 @@
 #include "lightwell/render/camera.h"
 #include "lightwell/render/grid_integrator.h"
 #include "tests/render/find_integrator.h"
+#include "tests/trace/chi_square.h"
 #include "tests/trace/scenes.h"
 #include "tests/trace/truth.h"
 
@@ -65,6 +66,44 @@ TEST(Camera, LooksAlongItsNegativeZ) {
 }
 
 // Emitted radiance 1, direct irradiance pi and indirect pi times albedo 0.5 / pi: 1 + 0.5 + 0.5 in every pixel.
+/// Where the rays of a picture's pixels met something.
+std::vector<Vec3f>& places() {
+  static std::vector<Vec3f> all;
+  return all;
+}
+
+/// An integrator that only takes down what it is asked for.
+struct Witness : public Integrator {
+  ReflectedLight sample(const Receiver& receiver, Random&) const override {
+    places().push_back(receiver.position);
+    return {};
+  }
+};
+
+// Rays are spread over the area of a picture evenly: over each pixel of a wall 2 m away, in 16 by 16 parts.
+TEST(Render, SamplesPixelsEvenly) {
+  const Scene scene = scene_of(quad({{-50, -50, 0}}, {{100, 0, 0}}, {{0, 100, 0}}), lambertian(0.5f));
+  const IntegratorKind kind{"witness", "", true, false, [](const World&, const IntegratorOptions&) {
+                              return std::unique_ptr<Integrator>(new Witness);
+                            }};
+  RenderOptions options;
+  options.integrator = &kind;
+  options.width = options.height = 2;
+  options.samples = 25000;
+  options.threads = 1;
+  Camera camera = camera_at({{0, 0, 2}});
+  camera.yfov = pi / 2;  // the picture is a square of 4 m
+  places().clear();
+  take(*world_of(scene), camera, options);
+  ASSERT_EQ(places().size(), 4u * 25000);
+  std::vector<int> counts(4 * 256);
+  for (const Vec3f& place : places()) {
+    const auto part = [](float x) { return static_cast<size_t>(std::clamp((x + 2) * 8, 0.0f, 31.0f)); };
+    counts[32 * part(place[1]) + part(place[0])]++;
+  }
+  EXPECT_GT(chi_square_of_equal_bins(counts), least_probability);
+}
+
 TEST(Render, OfTheFurnaceIsTwo) {
   const Scene scene = truth_scene("c_furnace");
   const auto world = world_of(scene);

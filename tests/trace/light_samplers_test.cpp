@@ -74,9 +74,39 @@ TEST(LightSamplers, ChooseDirectionsToFacesWithTheirDensity) {
     EXPECT_GT(chi_square_of_directions(pane, {{0.3f, 0.5f, side - 1}}), least_probability);
 }
 
+// A screen whose picture is nearly black but for a spot: its faces are chosen by 64 samples of what they shine, which
+// are far from their power, and the density tells what was made of them.
+TEST(LightSamplers, ChooseDirectionsToAPictureWithTheirDensity) {
+  Scene scene = corner();
+  Mesh screen = quad({{0, 0.2f, -0.9f}}, {{0.8f, 0, 0}}, {{0, 0.6f, 0.3f}});
+  screen.texcoords[0] = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
+  add(scene, screen, lambertian(0, 60));
+  scene.materials.back().emission_texture.image = 0;
+  scene.images = {{8, 8, 1, std::vector<uint8_t>(64, 4)}};
+  scene.images[0].pixels[8 * 2 + 5] = 255;
+  EXPECT_GT(chi_square_of_directions(scene, {{0.5f, 0.5f, 0.2f}}), least_probability);
+}
+
+/// A sky of pixels that differ by up to four decades, none of them black. Twenty columns and two rows have their edges
+/// where those of DirectionBins are.
+Environment patchy_sky(int width, int height) {
+  RadianceImage map{width, height, {}};
+  Random random(6, 0);
+  for (int pixel = 0; pixel < width * height; pixel++) {
+    const float grey = std::pow(10.0f, 4 * random.uniform() - 2);
+    map.pixels.insert(map.pixels.end(), {grey, 2 * grey, 3 * grey});
+  }
+  Environment environment;
+  environment.radiance = Vec3f::filled(0.05f);
+  environment.map = std::make_shared<const RadianceImage>(std::move(map));
+  return environment;
+}
+
 TEST(LightSamplers, ShareSamplesOutToFacesAndSky) {
   Scene scene = corner();
   scene.environment.radiance = {{0.1f, 0.2f, 0.3f}};
+  EXPECT_GT(chi_square_of_directions(scene, {{0.5f, 0.5f, 0.2f}}), least_probability);
+  scene.environment = patchy_sky(20, 2);
   EXPECT_GT(chi_square_of_directions(scene, {{0.5f, 0.5f, 0.2f}}), least_probability);
 }
 
@@ -98,8 +128,7 @@ TEST(LightSamplers, ChooseSourcesByTheirPower) {
   EXPECT_GT(chi_square(emitted, shares), least_probability);
 }
 
-// A mesh of faces of very unlike areas and a texture whose halves shine unlike: each photon starts at a place in
-// proportion to what shines there.
+// A mesh of faces of very unlike areas: each photon starts at a place in proportion to what shines there.
 TEST(LightSamplers, ChooseFacesByWhatTheyShine) {
   Mesh fan;
   fan.positions = {{{0, 0, 0}}};
@@ -204,6 +233,43 @@ TEST(LightSamplers, FillTheBeamsOfDistantSources) {
       chi_square_of(
           256, [&](Random& random) { return bin_between(Frame(up), world->lights().emit(random).ray.direction, -1); }),
       least_probability);
+}
+
+// From each pixel of a map of the sky in proportion to the light that it sends, all with the same flux, and through
+// each part of the beam alike whatever the pixel: the disc is cut in two by its area, and in two halves.
+TEST(LightSamplers, EmitFromAMapOfTheSkyByItsLight) {
+  constexpr int width = 16, height = 8;
+  Scene scene = scene_of(room({{-1, -1, -1}}, {{1, 1, 1}}), lambertian(0.5f));
+  scene.environment = patchy_sky(width, height);
+  const auto world = world_of(scene);
+  const float radius = length(world->lights().region().size()) / 2;
+  constexpr size_t parts = 4;
+  std::vector<double> shares;
+  double total = 0;
+  for (size_t pixel = 0; pixel < width * height; pixel++) {
+    const double row = static_cast<double>(pixel / width);
+    const double solid_angle =
+        std::cos(std::numbers::pi * row / height) - std::cos(std::numbers::pi * (row + 1) / height);
+    const double light = static_cast<double>(scene.environment.map->pixels[3 * pixel]) * solid_angle;
+    shares.insert(shares.end(), parts, light / parts);
+    total += light;
+  }
+  for (double& share : shares) share /= total;
+  std::vector<int> counts(shares.size());
+  Random random(7, 0);
+  const float flux = world->lights().power()[0];
+  for (int i = 0; i < 4 * samples; i++) {
+    const Emission emission = world->lights().emit(random);
+    ASSERT_NEAR(emission.flux[0] / flux, 1, 1e-3f);  // sums of 128 floats
+    const Vec3f towards = -emission.ray.direction;
+    const float around = 0.5f + std::atan2(towards[0], -towards[2]) / (2 * pi);  // docs/light.md: -z is in the middle
+    const size_t pixel =
+        width * part(std::acos(std::clamp(towards[1], -1.0f, 1.0f)) / pi, 0, 1, height) + part(around, 0, 1, width);
+    const Vec3f across = Frame(emission.ray.direction).to_local(emission.ray.origin) / radius;
+    const size_t inner = across[0] * across[0] + across[1] * across[1] < 0.5f ? 1 : 0, upper = across[1] > 0 ? 1 : 0;
+    counts[parts * pixel + 2 * inner + upper]++;
+  }
+  EXPECT_GT(chi_square(counts, shares), least_probability);
 }
 
 }  // namespace

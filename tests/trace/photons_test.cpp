@@ -6,6 +6,7 @@
 #include "lightwell/base/parallel.h"
 #include "lightwell/trace/paths.h"
 #include "lightwell/trace/sampling.h"
+#include "tests/trace/chi_square.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -40,6 +41,30 @@ TEST(Photons, AreReflectedByTheAlbedo) {
   }
   // A geometric distribution of mean 4 has a standard deviation of 3.5: 1 % is 1.6 standard errors; 3 % are allowed.
   EXPECT_NEAR(flights / static_cast<double>(count), 4, 0.12);
+}
+
+// A spot upon a matt floor of albedo 0.7: that share of its photons goes on, in directions of a cosine's density, and
+// the others end.
+TEST(Photons, AreReflectedInADiffuseWay) {
+  Scene scene = scene_of(floor_mesh(), lambertian({{0.2f, 0.7f, 0.1f}}));
+  scene.lamps = {spot_lamp({{0, 1, 0}}, 1, 0.3f, 0.4f)};
+  const auto world = world_of(scene);
+  std::vector<double> shares(257, 0.7 / 256);
+  shares.back() = 0.3;
+  std::vector<int> counts(shares.size());
+  const auto part = [](float share) { return static_cast<size_t>(std::clamp(share, 0.0f, 0.999999f) * 16); };
+  for (uint64_t i = 0; i < 50000; i++) {
+    const std::vector<Flight> flights = flights_of(*world, i);
+    if (flights.empty()) continue;  // at the very edge of the cone, where a photon carries nothing
+    if (flights.size() == 1) {
+      counts.back()++;
+      continue;
+    }
+    // Malley: the square of the cosine is uniform.
+    const Vec3f& v = flights[1].direction;
+    counts[16 * part(v[1] * v[1]) + part(0.5f + std::atan2(v[2], v[0]) / (2 * pi))]++;
+  }
+  EXPECT_GT(chi_square(counts, shares), least_probability);
 }
 
 // A closed white furnace keeps all flux for as long as a photon is followed, and each flight begins where the last one

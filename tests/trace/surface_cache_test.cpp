@@ -114,5 +114,69 @@ TEST(SurfaceCache, KeepsADarkRoomDark) {
   EXPECT_EQ(cache.irradiance({{3, 0, 1}}, {{0, 1, 0}}), Vec3f{});
 }
 
+/// The same surface in 4^times as many faces.
+Mesh divided(Mesh mesh, int times) {
+  for (int i = 0; i < times; i++) {
+    Mesh fine;
+    for (const Face& f : mesh.faces) {
+      const Vec3f &a = mesh.positions[f[0]], &b = mesh.positions[f[1]], &c = mesh.positions[f[2]];
+      const auto first = static_cast<uint32_t>(fine.positions.size());
+      for (const Vec3f& p : {a, b, c, (a + b) / 2.0f, (b + c) / 2.0f, (c + a) / 2.0f}) fine.positions.push_back(p);
+      for (const Face& part : {Face{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}})
+        fine.faces.push_back({first + part[0], first + part[1], first + part[2]});
+    }
+    mesh = std::move(fine);
+  }
+  return mesh;
+}
+
+/// A lit room with a block in it, of 4^times as many faces as it needs.
+Scene furnished(int times) {
+  Scene scene = scene_of(divided(room(box.lo, box.hi), times), lambertian(0.6f));
+  add(scene, divided(block({{1.3f, 0, 0.5f}}, {{1.7f, 0.6f, 1.1f}}), times), lambertian(0.6f));
+  scene.lamps = {point_lamp({{0.3f, 1.2f, 2.5f}}, {{1, 2, 3}})};
+  return scene;
+}
+
+/// The same, its walls 16 x 16 tiles each: 1,536 instances of 2,048 faces.
+Scene tiled() {
+  Scene scene = furnished(3);
+  scene.primitives[0].mesh = divided(quad({}, {{1, 0, 0}}, {{0, 1, 0}}), 5);
+  scene.instances.erase(scene.instances.begin());
+  const Vec3f s = box.size(), x{{s[0], 0, 0}}, y{{0, s[1], 0}}, z{{0, 0, s[2]}};
+  constexpr int side = 16;
+  for (const auto& [u, v] : {std::pair(z, x), {x, y}, {y, z}, {-x, -z}, {-y, -x}, {-z, -y}}) {
+    const Vec3d corner = (dot(u, Vec3f::filled(1)) > 0 ? box.lo : box.hi).cast<double>();
+    const Vec3d across = u.cast<double>() / double(side), up = v.cast<double>() / double(side);
+    const Vec3d normal = cross(across, up) / length(cross(across, up));
+    for (int i = 0; i < side * side; i++)
+      scene.instances.push_back(
+          {0, {across, up, normal, corner + across * double(i % side) + up * double(i / side)}, -1});
+  }
+  return scene;
+}
+
+// A room of 1,536 triangles, of 64 times as many, and tiled with 3 million: the light is the same, and so are the cells
+// but for those that few rays meet, as rounding has it: one in a hundred, none is found. Half as large cells are four
+// times as many: detail of the light is what costs memory. A cell takes 144 bytes; by powers of two in its tables it
+// may be half of that or twice as much.
+TEST(SurfaceCache, TakesMemoryByTheLightsDetailNotByTriangles) {
+  const auto cache_of = [](const Scene& scene, float cell) {
+    return build(*world_of(scene), {.region = box, .cell = cell}, viewpoints_in(box, 6));
+  };
+  const SurfaceCache coarse = cache_of(furnished(3), 0.1f);
+  const auto cells = static_cast<double>(coarse.cells()), bytes = static_cast<double>(coarse.bytes());
+  EXPECT_GT(bytes, cells * (2 * sizeof(Vec3f) + sizeof(uint64_t))) << "less than what it knows";
+  EXPECT_LT(bytes, cells * 288);
+  for (const Scene& scene : {furnished(6), tiled()}) {
+    const SurfaceCache fine = cache_of(scene, 0.1f);
+    EXPECT_NEAR(static_cast<double>(fine.cells()) / cells, 1, 0.01);
+    EXPECT_NEAR(static_cast<double>(fine.bytes()) / bytes, 1, 0.01);
+  }
+  const SurfaceCache detailed = cache_of(furnished(3), 0.05f);
+  EXPECT_NEAR(static_cast<double>(detailed.cells()) / cells, 4, 0.1);
+  EXPECT_GT(static_cast<double>(detailed.bytes()) / bytes, 2);
+}
+
 }  // namespace
 }  // namespace lightwell

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lightwell/trace/sampling.h"
+#include "tests/trace/chi_square.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -108,6 +109,37 @@ TEST(TraceScene, LetsTheTransparentShareOfLightPass) {
   }
   EXPECT_NEAR(met, 1000, 100);
   EXPECT_NEAR(blocked, 1000, 100);
+}
+
+// Four panes one behind the other, each of which stops its own share: by which of them a ray is stopped tells that
+// chance is another one at each, for both kinds of rays.
+TEST(TraceScene, EachPaneHasAChanceOfItsOwn) {
+  const std::vector<float> coverage{0.2f, 0.5f, 0.3f, 0.6f};
+  Scene scene;
+  std::vector<double> shares;
+  double left = 1;
+  for (size_t i = 0; i < coverage.size(); i++) {
+    Material glass = lambertian(0.5f);
+    glass.alpha = Material::Alpha::blend;
+    glass.base_color[3] = coverage[i];
+    add(scene, quad({{-1, -1, -static_cast<float>(i)}}, {{2, 0, 0}}, {{0, 2, 0}}), glass);
+    shares.push_back(left * static_cast<double>(coverage[i]));
+    left -= shares.back();
+  }
+  shares.push_back(left);
+  const auto trace = traced(scene);
+  std::vector<int> stopped(shares.size());
+  int passed = 0;
+  const int rays = 50000;
+  for (uint64_t i = 0; i < rays; i++) {
+    Random random(6, i);
+    const Ray ray{{{0.3f, 0.2f, 1}}, {{0, 0, -1}}};
+    Hit hit;
+    stopped[trace->intersect(ray, random, hit) ? hit.instance : coverage.size()]++;
+    passed += trace->transmittance(ray, random) != Vec3f{};
+  }
+  EXPECT_GT(chi_square(stopped, shares), least_probability);
+  EXPECT_GT(chi_square({passed, rays - passed}, {left, 1 - left}), least_probability);
 }
 
 Material pane(const Vec3f& color, float transmission = 1) {
