@@ -16,7 +16,7 @@ import { writeSheet } from './sheet.mjs';
 import { openPack, shoot, softenShadows } from './shot.mjs';
 
 const SIZE = ['--size', '320x180'];
-const PATH_SAMPLES = 1024;
+const PATH_SAMPLES = 256;
 const SHADOW_POINTS = 64;
 const SHADOW_SECONDS = 60;
 /** A thousandth of the light of the lit side looks as bright as that does. */

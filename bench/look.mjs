@@ -13,7 +13,7 @@ import { putBeforeSky, writeSheet } from './sheet.mjs';
 import { openPack, shoot, softenShadows } from './shot.mjs';
 
 /** Samples a pixel: the path tracer's noise is in the figures, of `ivg` only that of lamps' shadows. */
-const PATH_SAMPLES = 1024;
+const PATH_SAMPLES = 256;
 const GRID_SAMPLES = 64;
 /** After which a penumbra errs by less than 2 % (docs/results/direct.md), or as many as come in so many seconds. */
 const SHADOW_POINTS = 64;
@@ -87,7 +87,7 @@ async function look(browser, scene, folder) {
       { label: 'path', picture: files.path },
       { label: `${GAIN} x |page - path|`, picture: files.page, minus: files.path },
     ],
-    { gain: GAIN },
+    GAIN,
   );
   const indirect = apart ? difference(files.page_indirect, files.path_indirect) : '- | -';
   const name = basename(scene) + (sky.length > 0 ? ', uniform sky' : '');

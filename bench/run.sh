@@ -142,11 +142,12 @@ bench_real() {
 bench_look() { # [SCENE...]: files, or names of files of ../shared/data; all of its rooms, objects and scans without
   [ -d "$shared/data" ] || { missing "$shared/data"; return; }
   command -v chromium >/dev/null || { missing chromium; return; }
-  local scene scenes=()
+  local name scene scenes=()
   [ $# -gt 0 ] || set -- "$shared"/data/{rooms,objects,scans}/*.{glb,ply,obj,stl,drc,ply.gz,obj.gz}
-  for scene in "$@"; do
-    [ -e "$scene" ] || scene=$(find "$shared/data" -name "$(basename "$scene")")
-    if [ -e "$scene" ]; then scenes+=("$scene"); else missing "$scene"; fi
+  for name in "$@"; do
+    scene=$name
+    [ -e "$scene" ] || scene=$(find "$shared/data" -name "$(basename "$name")")
+    if [ -e "$scene" ]; then scenes+=("$scene"); else missing "$name"; fi
   done
   show node bench/look.mjs build/look "${scenes[@]}"
 }

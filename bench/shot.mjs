@@ -23,8 +23,11 @@ export async function openPack(page, url) {
 export function softenShadows(page, points, seconds) {
   return page.evaluate(
     async ([wanted, milliseconds, end]) => {
-      const { pack } = document.querySelector('lightwell-view');
+      const view = document.querySelector('lightwell-view');
+      const { pack } = view;
       pack.setShadows('soft', milliseconds);
+      // A frame finds out whether the camera has moved.
+      view.draw();
       const started = performance.now();
       while (pack.shadowSamples < wanted && performance.now() - started < end) await new Promise(requestAnimationFrame);
       return pack.shadowSamples;
