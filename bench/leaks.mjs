@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// leaks.mjs FOLDER REPORTED: rooms in which light that comes through a wall would be seen: FOLDER/leak_CASE.jpg has the lit side at the
-// pack's own exposure, and the dark one, so many stops brighter, on the page and by the path tracer; a row of a table a case says how
-// far those two are apart, CIEDE2000 over 320 x 180 pixels. REPORTED is the folder of ../shared with what was reported.
+// leaks.mjs PARTS FOLDER REPORTED [CASE...]: rooms in which light that comes through a wall would be seen: FOLDER/leak_CASE.jpg has the lit side at
+// the pack's own exposure, and the dark one, so many stops brighter, on the page and by the path tracer; a row of a table a case says
+// how far those two are apart, CIEDE2000 over 320 x 180 pixels. PARTS takes the packs and single pictures; REPORTED is the folder of
+// ../shared with what was reported.
 import { execFileSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { launch, openPage } from '../tests/e2e/browser.mjs';
 import { three } from '../tests/e2e/dependencies.mjs';
 import { BIN } from '../tests/e2e/packs.mjs';
 import { room, writeScene } from '../tests/e2e/scenes.mjs';
 import { startServe } from '../tests/e2e/servers.mjs';
-import { writeSheet } from './sheet.mjs';
+import { putBeforeSky, writeSheet } from './sheet.mjs';
 import { openPack, shoot, softenShadows } from './shot.mjs';
 
 const SIZE = ['--size', '320x180'];
@@ -117,13 +117,19 @@ async function shootSides(browser, pack, files, stops) {
   }
 }
 
-async function show(browser, scratch, folder, reported, { name, scene, sky = [], stops, ...cameras }) {
-  const files = Object.fromEntries(['lit', 'dark', 'path'].map((part) => [part, join(scratch, `${name}.${part}.png`)]));
-  const [seen, pack] = [join(scratch, `${name}.seen.gltf`), join(scratch, `${name}.lw.glb`)];
-  writeWithCameras(seen, readScene(scene(scratch, reported)), cameras);
+async function show(browser, parts, folder, reported, { name, scene, sky = [], stops, ...cameras }) {
+  const files = Object.fromEntries(['lit', 'sky', 'dark', 'path'].map((part) => [part, join(parts, `${name}.${part}.png`)]));
+  const [seen, pack] = [join(parts, `${name}.seen.gltf`), join(parts, `${name}.lw.glb`)];
+  writeWithCameras(seen, readScene(scene(parts, reported)), cameras);
   lightwell('bake', seen, '-o', pack, ...sky);
   const exposure = await shootSides(browser, pack, files, stops);
-  lightwell('render', seen, '-o', files.path, '--camera', 'dark', '--exposure', String(exposure), ...SIZE, '--spp', String(PATH_SAMPLES), ...sky);
+  const render = (file, camera, stop, samples) =>
+    lightwell('render', seen, '-o', file, '--camera', camera, '--exposure', String(stop), '--spp', String(samples), ...SIZE, ...sky);
+  render(files.path, 'dark', exposure, PATH_SAMPLES);
+  if (sky.length > 0) {
+    render(files.sky, 'lit', exposure - stops, 1);
+    await putBeforeSky(browser, files.lit, files.sky);
+  }
   await writeSheet(browser, join(folder, `leak_${name}.jpg`), [
     { label: 'lit side', picture: files.lit },
     { label: `dark side, ${stops} stops brighter`, picture: files.dark },
@@ -133,16 +139,15 @@ async function show(browser, scratch, folder, reported, { name, scene, sky = [],
   return `| ${name} | ${stops} | ${mean.toFixed(2)} | ${p95.toFixed(1)} | ${max.toFixed(1)} |`;
 }
 
-const [folder, reported] = process.argv.slice(2);
-if (reported === undefined) throw new Error('usage: node bench/leaks.mjs FOLDER REPORTED');
-mkdirSync(folder, { recursive: true });
-const scratch = mkdtempSync(join(tmpdir(), 'lightwell-leaks-'));
+const [parts, folder, reported, ...only] = process.argv.slice(2);
+if (reported === undefined) throw new Error('usage: node bench/leaks.mjs PARTS FOLDER REPORTED [CASE...]');
+for (const path of [parts, folder]) mkdirSync(path, { recursive: true });
 const browser = await launch();
 try {
   console.log('| dark side of | stops | page against path tracer: mean | 95th percentile | largest |');
   console.log('|---|---|---|---|---|');
-  for (const item of CASES) console.log(await show(browser, scratch, folder, reported, item));
+  for (const item of CASES.filter(({ name }) => only.length === 0 || only.includes(name)))
+    console.log(await show(browser, parts, folder, reported, item));
 } finally {
   await browser.close();
-  rmSync(scratch, { recursive: true });
 }

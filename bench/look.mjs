@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // look.mjs FOLDER SCENE...: what a user sees of a default bake: the page at rest and `render --integrator ivg`, each against the path
-// tracer from the same camera, CIEDE2000 over 320 x 180 pixels; a row of a table a scene, and FOLDER/SCENE.png with the pictures side
-// by side and four times the difference between page and path tracer. A scene without a lamp stands under a uniform sky.
+// tracer from the same camera, CIEDE2000 over 320 x 180 pixels, and the path tracer against itself with another seed, its noise; a row of
+// a table a scene, and FOLDER/SCENE.png with the pictures side by side and four times the difference between page and path tracer. A
+// scene without a lamp stands under a uniform sky.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { basename, join } from 'node:path';
@@ -12,7 +13,7 @@ import { startServe } from '../tests/e2e/servers.mjs';
 import { putBeforeSky, writeSheet } from './sheet.mjs';
 import { openPack, shoot, softenShadows } from './shot.mjs';
 
-/** Samples a pixel: the path tracer's noise is in the figures, of `ivg` only that of lamps' shadows. */
+/** Samples a pixel; of `ivg` only the lamps' shadows have noise. */
 const PATH_SAMPLES = 256;
 const GRID_SAMPLES = 64;
 /** After which a penumbra errs by less than 2 % (docs/results/direct.md), or as many as come in so many seconds. */
@@ -66,7 +67,7 @@ function difference(picture, reference) {
 async function look(browser, scene, folder) {
   const parts = join(folder, 'parts', basename(scene));
   mkdirSync(parts, { recursive: true });
-  const names = ['page', 'ivg', 'path', 'page_indirect', 'path_indirect'];
+  const names = ['page', 'ivg', 'path', 'again', 'page_indirect', 'path_indirect'];
   const files = Object.fromEntries(names.map((name) => [name, join(parts, `${name}.png`)]));
   const pack = join(parts, 'pack.lw.glb');
   const { sky, figures } = bakeLit(scene, pack);
@@ -75,6 +76,7 @@ async function look(browser, scene, folder) {
   const path = ['--integrator', 'path', '--spp', String(PATH_SAMPLES), ...view, ...sky];
   lightwell('render', pack, '-o', files.ivg, '--integrator', 'ivg', '--spp', String(GRID_SAMPLES), ...view);
   lightwell('render', scene, '-o', files.path, ...path);
+  lightwell('render', scene, '-o', files.again, ...path, '--seed', '2');
   const apart = !figures.grids.some(({ contains }) => contains.includes('environment'));
   if (sky.length > 0) await putBeforeSky(browser, files.page, files.path);
   if (apart) lightwell('render', scene, '-o', files.path_indirect, '--only', 'indirect', ...path);
@@ -91,15 +93,16 @@ async function look(browser, scene, folder) {
   );
   const indirect = apart ? difference(files.page_indirect, files.path_indirect) : '- | -';
   const name = basename(scene) + (sky.length > 0 ? ', uniform sky' : '');
-  return `| ${name} | ${points === Infinity ? 'all' : points} | ${difference(files.page, files.path)} | ${difference(files.ivg, files.path)} | ${indirect} |`;
+  const total = [files.page, files.ivg, files.again].map((file) => difference(file, files.path));
+  return `| ${[name, points === Infinity ? 'all' : points, ...total, indirect].join(' | ')} |`;
 }
 
 const [folder, ...scenes] = process.argv.slice(2);
 if (scenes.length === 0) throw new Error('usage: node bench/look.mjs FOLDER SCENE...');
 const browser = await launch();
 try {
-  console.log('| scene | points a lamp | page: mean | 95th percentile | ivg: mean | 95th percentile | page, indirect: mean | 95th percentile |');
-  console.log('|---|---|---|---|---|---|---|---|');
+  const pairs = ['page', 'ivg', 'noise', 'page, indirect'].map((what) => `${what}: mean | 95th percentile`);
+  console.log(`| scene | points a lamp | ${pairs.join(' | ')} |\n|${'---|'.repeat(10)}`);
   for (const scene of scenes)
     console.log(await look(browser, scene, folder).catch((error) => `| ${basename(scene)} | left out: ${String(error.stderr ?? error).trim()} |`));
 } finally {

@@ -156,7 +156,7 @@ bench_look() { # [SCENE...]: files, or names of files of ../shared/data; all of 
 bench_leaks() {
   [ -d "$shared/data" ] || { missing "$shared/data"; return; }
   command -v chromium >/dev/null || { missing chromium; return; }
-  show node bench/leaks.mjs docs/results/pictures "$shared/data/reported"
+  show node bench/leaks.mjs "$out/leaks" docs/results/pictures "$shared/data/reported"
 }
 
 # Error against bytes: adaptive and regular grids, and what has come of a stream.

@@ -34,13 +34,15 @@ async function drawSheet({ cells, gain, type, quality }) {
   context.font = '11px sans-serif';
   for (const [i, { label, minus }] of cells.entries()) {
     const x = i * (width + GAP);
-    const shown = pixelsOf(pictures[i]);
+    context.fillStyle = 'black';
+    context.fillRect(x, 0, width, height);
+    context.drawImage(pictures[i], x, 0);
     if (minus !== undefined) {
+      const shown = pixelsOf(pictures[i]);
       const { data } = pixelsOf(await loadPicture(minus));
       shown.data.forEach((value, k) => (shown.data[k] = k % 4 === 3 ? 255 : gain * Math.abs(value - data[k])));
+      context.putImageData(shown, x, 0);
     }
-    context.putImageData(shown, x, 0);
-    context.fillStyle = 'black';
     context.fillRect(x, 0, context.measureText(label).width + 6, 15);
     context.fillStyle = 'white';
     context.fillText(label, x + 3, 11);
