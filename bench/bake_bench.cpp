@@ -3,6 +3,8 @@
 // bake_bench FOLDER: what the estimators err by for their processor time, in the rooms of a folder whose irradiance
 // another renderer has measured: ROOM.glb, ROOM.free.indirect.csv and ROOM.surf.indirect.csv.
 // bake_bench --nodes SCENE...: what regular grids for a target of 3 % err by at their nodes.
+// bake_bench --tree SCENE...: how long Embree takes to build its tree, which no other figure here contains.
+#include <chrono>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
@@ -188,6 +190,39 @@ bool regions(const std::string& path) {
   return true;
 }
 
+/// Embree's tree over a scene's faces, by the clock and by the processors' time.
+bool build_tree(const std::string& path) {
+  Report report;
+  const auto scene = load_scene(path, {}, report);
+  if (!scene) return std::fprintf(stderr, "%s\n", scene.error().message().c_str()), false;
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t busy = std::clock();
+  const auto tree = TraceScene::build(*scene);
+  const double processor = static_cast<double>(std::clock() - busy) / CLOCKS_PER_SEC;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!tree) return std::fprintf(stderr, "%s\n", tree.error().message().c_str()), false;
+  size_t faces = 0;
+  for (const Instance& instance : scene->instances)
+    faces += scene->primitives[static_cast<size_t>(instance.primitive)].mesh.faces.size();
+  std::printf("| %s | %zu | %.2f | %.2f |\n", path.substr(path.rfind('/') + 1).c_str(), faces, seconds, processor);
+  std::fflush(stdout);
+  return true;
+}
+
+/// What is printed of each scene that is named.
+struct OfScenes {
+  const char* name;
+  const char* head;
+  bool (*print)(const std::string& path);
+};
+constexpr OfScenes parts_of_scenes[] = {
+    {"--nodes", "| scene | nodes | processor seconds | error at the nodes % |\n|---|---|---|---|", at_nodes},
+    {"--regions",
+     "| scene | regions apart | bytes of the grid's own stream | of the largest region | of all "
+     "|\n|---|---|---|---|---|",
+     regions},
+    {"--tree", "| scene | triangles | tree, seconds | processor seconds |\n|---|---|---|---|", build_tree}};
+
 struct Candidate {
   const EstimatorKind* kind;
   uint64_t photons;
@@ -238,19 +273,14 @@ bool compare(const std::string& folder, const char* room, const std::vector<Cand
 int main(int count, char** arguments) {
   using namespace lightwell;
   if (count < 2)
-    return std::fprintf(stderr, "usage: bake_bench [--prefixes] FOLDER, or bake_bench --nodes|--regions SCENE...\n"), 1;
-  if (std::string(arguments[1]) == "--nodes") {
-    std::printf("| scene | nodes | processor seconds | error at the nodes %% |\n|---|---|---|---|\n");
+    return std::fprintf(stderr,
+                        "usage: bake_bench [--prefixes] FOLDER, or bake_bench --nodes|--regions|--tree SCENE...\n"),
+           1;
+  for (const OfScenes& part : parts_of_scenes) {
+    if (std::string(arguments[1]) != part.name) continue;
+    std::printf("%s\n", part.head);
     for (int i = 2; i < count; i++)
-      if (!at_nodes(arguments[i])) return 1;
-    return 0;
-  }
-  if (std::string(arguments[1]) == "--regions") {
-    std::printf(
-        "| scene | regions apart | bytes of the grid's own stream | of the largest region | of all "
-        "|\n|---|---|---|---|---|\n");
-    for (int i = 2; i < count; i++)
-      if (!regions(arguments[i])) return 1;
+      if (!part.print(arguments[i])) return 1;
     return 0;
   }
   const EstimatorKind printed{"faces, as printed", "", false, make_printed_face_estimator};
@@ -259,7 +289,7 @@ int main(int count, char** arguments) {
     for (const uint64_t photons : {1'000'000, 8'000'000})
       if (photons > 1'000'000 || !kind.node_by_node) candidates.push_back({&kind, photons});
   candidates.push_back({&printed, 1'000'000});
-  if (count == 3 && std::string(arguments[1]) == "--prefixes") {
+  if (count == 3 && asked == "--prefixes") {
     std::printf("| room | nodes | lattice, error of the filled grid %% | slices %% |\n|---|---|---|---|\n");
     for (const char* room : {"a_cornell", "b_tworooms", "d_blob"})
       if (!prefixes(arguments[2], room)) return 1;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// frame.mjs PACK: how long a frame takes at 480 x 270 with the light grid and without (20 alternating pairs, the median of their
-// ratio), and while PACK streams in (95th percentile). Frames are timed to the end of a read back, in Chromium on llvmpipe. The
-// same ratio by the processors' time instead of the clock's is what a busy machine disturbs least.
+// frame.mjs PACK [OTHER]: how long a frame takes at 480 x 270 with the light grid and without (20 alternating pairs, the median of their
+// ratio), and while PACK streams in (95th percentile); then the same of PACK beside OTHER, the same scene with another grid. Frames
+// are timed to the end of a read back, in Chromium on llvmpipe. The same ratio by the processors' time instead of the clock's is what
+// a busy machine disturbs least.
 import { launch, openPage } from '../tests/e2e/browser.mjs';
 import { WEB } from '../tests/e2e/dependencies.mjs';
 import { startStaticServer } from '../tests/e2e/static_server.mjs';
@@ -32,22 +33,19 @@ const TIME_FRAMES = `{
   });
 }`;
 
-/** Runs in the page: milliseconds of each pair of frames, with the grid and without; a first pair compiles the shaders. */
-function timePairs(pairs) {
+/** Runs in the page: milliseconds of a frame of a light, after one that compiles its shaders. */
+function timeFrame(light) {
   const view = document.querySelector('lightwell-view');
   const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
-  const time = (light) => {
-    view.setAttribute('light', light);
+  const draw = () => {
     view.draw();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    const start = performance.now();
-    view.draw();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    return performance.now() - start;
   };
-  time('all');
-  time('direct');
-  return Array.from({ length: pairs }, () => [time('all'), time('direct')]);
+  view.setAttribute('light', light);
+  draw();
+  const start = performance.now();
+  draw();
+  return performance.now() - start;
 }
 
 /** Runs in the page: draws frames of a light. */
@@ -67,11 +65,11 @@ async function processorSeconds(session) {
   return processInfo.find(({ type }) => type === 'GPU').cpuTime;
 }
 
-/** Milliseconds of the processors for a frame of each light, the least of its turns. A first frame of a turn draws shadows. */
-async function processorTimes(page, session, lights) {
-  const times = lights.map(() => Infinity);
+/** Milliseconds of the processors for a frame of each { page, light }, the least of its turns. A first frame of a turn draws shadows. */
+async function processorTimes(session, frames) {
+  const times = frames.map(() => Infinity);
   for (let turn = 0; turn < TURNS; turn++) {
-    for (const [i, light] of lights.entries()) {
+    for (const [i, { page, light }] of frames.entries()) {
       await page.evaluate(drawFrames, { light, count: 1 });
       const start = await processorSeconds(session);
       await page.evaluate(drawFrames, { light, count: TURN_FRAMES });
@@ -82,36 +80,63 @@ async function processorTimes(page, session, lights) {
 }
 
 const quantile = (values, share) => values.toSorted((a, b) => a - b)[Math.floor(share * (values.length - 1))];
+const median = (values) => quantile(values, 0.5);
 
-const pack = process.argv[2];
-if (pack === undefined) throw new Error('usage: node bench/frame.mjs PACK');
+/** What one frame takes beside another, each { name, page, light }, in turn: by the clock and by the processors' time. */
+async function compare(session, frames) {
+  const time = ({ page, light }) => page.evaluate(timeFrame, light);
+  for (const frame of frames) await time(frame);
+  const pairs = [];
+  for (let i = 0; i < PAIRS; i++) pairs.push([await time(frames[0]), await time(frames[1])]);
+  const busy = await processorTimes(session, frames);
+  return {
+    ...Object.fromEntries(frames.map(({ name }, i) => [`frame_${name}_ms`, median(pairs.map((pair) => pair[i]))])),
+    ratio_median: median(pairs.map(([one, other]) => one / other)),
+    ...Object.fromEntries(frames.map(({ name }, i) => [`processor_${name}_ms`, busy[i]])),
+    processor_ratio: busy[0] / busy[1],
+  };
+}
+
+/** Opens the page of a pack and waits until all of it is there. */
+async function openViewer(browser, name) {
+  const { page } = await openPage(browser, { width: 480, height: 270, init: TIME_FRAMES });
+  await page.goto(`${server.url}?pack=${name}`);
+  await complete(page, PATIENCE);
+  return page;
+}
+
+/** Of two pages neither is to draw samples of soft shadows while the other is timed. */
+const hardenShadows = (page) => page.evaluate(() => document.querySelector('lightwell-view').setAttribute('shadows', 'hard'));
+
+const [pack, other] = process.argv.slice(2);
+if (pack === undefined) throw new Error('usage: node bench/frame.mjs PACK [OTHER]');
+const packs = ['pack.lw.glb', 'other.lw.glb'].map((name) => ({ name, url: `/${name}` }));
 const server = await startStaticServer({
   '/': `${WEB}dist`,
   '/pack.lw.glb': pack,
-  '/packs.json': { text: '{"packs": [{"name": "pack.lw.glb", "url": "/pack.lw.glb"}]}', type: 'application/json' },
+  '/other.lw.glb': other ?? pack,
+  '/packs.json': { text: JSON.stringify({ packs }), type: 'application/json' },
 });
 const browser = await launch();
 try {
-  const { page } = await openPage(browser, { width: 480, height: 270, init: TIME_FRAMES });
-  await page.goto(server.url);
-  await complete(page, PATIENCE);
+  const session = await browser.newBrowserCDPSession();
+  const page = await openViewer(browser, 'pack.lw.glb');
   const streaming = await page.evaluate(() => globalThis.frameTimes);
-  const pairs = await page.evaluate(timePairs, PAIRS);
-  const [busyWith, busyWithout] = await processorTimes(page, await browser.newBrowserCDPSession(), ['all', 'direct']);
-  const median = (values) => quantile(values, 0.5);
-  console.log(
-    JSON.stringify({
-      frame_with_grid_ms: median(pairs.map(([grid]) => grid)),
-      frame_without_grid_ms: median(pairs.map(([, without]) => without)),
-      ratio_median: median(pairs.map(([grid, without]) => grid / without)),
-      processor_with_grid_ms: busyWith,
-      processor_without_grid_ms: busyWithout,
-      processor_ratio: busyWith / busyWithout,
-      streaming_frames: streaming.length,
-      streaming_median_ms: median(streaming),
-      streaming_p95_ms: quantile(streaming, 0.95),
-    }),
-  );
+  const withGrid = { name: 'with_grid', page, light: 'all' };
+  const figures = {
+    ...(await compare(session, [withGrid, { name: 'without_grid', page, light: 'direct' }])),
+    streaming_frames: streaming.length,
+    streaming_median_ms: median(streaming),
+    streaming_p95_ms: quantile(streaming, 0.95),
+  };
+  console.log(JSON.stringify(figures));
+  if (other !== undefined) {
+    await hardenShadows(page);
+    const second = await openViewer(browser, 'other.lw.glb');
+    await hardenShadows(second);
+    const frames = [{ ...withGrid, name: 'of_pack' }, { name: 'of_other', page: second, light: 'all' }];
+    console.log(JSON.stringify(await compare(session, frames)));
+  }
 } finally {
   await browser.close();
   await server.close();

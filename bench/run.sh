@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # run.sh [PART...]: prints the figures of docs/results again; each part shows its commands. What is missing on this machine
-# (../shared with the models and the truth, nginx, the browser) is named and left out.
+# (../shared with the models and the truth, nginx, the browser) is named and left out. `run.sh look SCENE...` looks at these scenes only.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace speed truth estimators peer real curve mesh light fetch server sizes frame growth direct)
+parts=(bake trace speed truth estimators peer real look leaks curve mesh light fetch server sizes frame growth direct)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -34,7 +34,7 @@ bench_bake() {
 
 bench_trace() { show "$programs/trace_bench"; }
 
-# A default bake with more options: processor seconds of all, seconds of the light without Embree's tree, the stated error, memory.
+# A default bake with more options: processor seconds of all (Embree's tree, too, whose own part bake_bench --tree says), seconds of the light without Embree's tree, the stated error, memory.
 speed_row() { # NAME SCENE [options]
   local name=$1 scene=$2 processor
   shift 2
@@ -60,6 +60,11 @@ bench_speed() {
   speed_row "box (1.1 M triangles)" box
   for threads in 1 2; do speed_row "box-small, --threads $threads" box-small --threads $threads; done
   for photons in 1M 64M; do speed_row "box-small, --method tracks --photons $photons" box-small --method tracks --photons $photons; done
+  local rooms=() large=()
+  for scene in "$shared"/truth/{a_cornell,b_tworooms,d_blob}.glb; do [ -e "$scene" ] && rooms+=("$scene"); done
+  for scene in "$shared"/data/rooms/{dragon-room,sponza}.glb; do [ -e "$scene" ] && large+=("$scene"); done
+  show "$programs/bake_bench" --tree box-small "${rooms[@]}" "${large[@]}" box
+  [ ${#rooms[@]} = 0 ] || show "$programs/bake_bench" --nodes "${rooms[@]}"
 }
 
 # Fails beyond 3 % in root mean square, and beyond a bias of 0.5 % in free space or 1 % on surfaces.
@@ -133,6 +138,27 @@ bench_real() {
   done
 }
 
+# What a user sees of real rooms, objects and scans, beside the path tracer: a table, and a sheet of pictures a scene in build/look.
+bench_look() { # [SCENE...]: files, or names of files of ../shared/data; all of its rooms, objects and scans without
+  [ -d "$shared/data" ] || { missing "$shared/data"; return; }
+  command -v chromium >/dev/null || { missing chromium; return; }
+  local name scene scenes=()
+  [ $# -gt 0 ] || set -- "$shared"/data/{rooms,objects,scans}/*.{glb,ply,obj,stl,drc,ply.gz,obj.gz}
+  for name in "$@"; do
+    scene=$name
+    [ -e "$scene" ] || scene=$(find "$shared/data" -name "$(basename "$name")")
+    if [ -e "$scene" ]; then scenes+=("$scene"); else missing "$name"; fi
+  done
+  show node bench/look.mjs build/look "${scenes[@]}"
+}
+
+# Rooms into which no light may come through a wall: a table, and the pictures of docs/results.
+bench_leaks() {
+  [ -d "$shared/data" ] || { missing "$shared/data"; return; }
+  command -v chromium >/dev/null || { missing chromium; return; }
+  show node bench/leaks.mjs "$out/leaks" docs/results/pictures "$shared/data/reported"
+}
+
 # Error against bytes: adaptive and regular grids, and what has come of a stream.
 bench_curve() {
   [ -d "$shared/data" ] || { missing "$shared/data"; return; }
@@ -192,9 +218,12 @@ middle_rate() { grep -o '[0-9]* ranges' "$1" | sort -n | sed -n '2s/ ranges//p';
 
 bench_sizes() { (cd web && show npm run --silent sizes); }
 
+# The frame with the grid beside the one without, and the grid with bricks beside a regular one of the same scene.
 bench_frame() {
   command -v chromium >/dev/null || { missing chromium; return; }
   show node bench/frame.mjs "$(pack)"
+  [ -e "$out/regular.lw.glb" ] || show "$lightwell" bake box-small --grid 32 -o "$out/regular.lw.glb" --quiet
+  show node bench/frame.mjs "$(built_in box-small)" "$out/regular.lw.glb"
 }
 
 built_in() { # NAME: the path of a built-in scene's pack.
@@ -213,6 +242,10 @@ bench_direct() {
 }
 
 mkdir -p "$out"
+if [ "${1:-}" = look ]; then
+  bench_look "${@:2}"
+  exit
+fi
 [ $# -gt 0 ] && parts=("$@")
 for part in "${parts[@]}"; do
   printf '\n\033[1m%s\033[0m\n' "$part"
