@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// leaks.mjs PARTS FOLDER REPORTED [CASE...]: rooms in which light that comes through a wall would be seen: FOLDER/leak_CASE.jpg has the lit side at
-// the pack's own exposure, and the dark one, so many stops brighter, on the page and by the path tracer; a row of a table a case says
-// how far those two are apart, CIEDE2000 over 320 x 180 pixels. PARTS takes the packs and single pictures; REPORTED is the folder of
-// ../shared with what was reported.
+// leaks.mjs PARTS FOLDER REPORTED [CASE...]: rooms in which light that comes through a wall would be seen: FOLDER/leak_CASE.jpg has the
+// lit side at the pack's own exposure, and the dark one, so many stops brighter, on the page and by the path tracer; a row of a table
+// a case says how far those two are apart, CIEDE2000 over 320 x 180 pixels. PARTS takes the packs and single pictures; REPORTED is the
+// folder of ../shared with what was reported.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';

@@ -149,7 +149,7 @@ bench_look() { # [SCENE...]: files, or names of files of ../shared/data; all of 
     [ -e "$scene" ] || scene=$(find "$shared/data" -name "$(basename "$name")")
     if [ -e "$scene" ]; then scenes+=("$scene"); else missing "$name"; fi
   done
-  show node bench/look.mjs build/look "${scenes[@]}"
+  [ ${#scenes[@]} = 0 ] || show node bench/look.mjs build/look "${scenes[@]}"
 }
 
 # Rooms into which no light may come through a wall: a table, and the pictures of docs/results.
