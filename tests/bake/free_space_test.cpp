@@ -49,52 +49,6 @@ TEST(FreeSpace, TakesDoubleSidedBlocksForSolidsAndSheetsNot) {
   EXPECT_FALSE(starts_inside(*world, space, {{2.5f, 0, 0}}));
 }
 
-/// A ball with relief, of which patches of faces up to a share of its area are cut out.
-Mesh ball_with_holes(float missing, uint64_t seed) {
-  Mesh mesh = turned(sphere(1, 4));
-  Random random(seed, 0);
-  const Vec3f stretch{{0.6f + random.uniform(), 0.6f + random.uniform(), 0.6f + random.uniform()}};
-  for (Vec3f& p : mesh.positions) p = p * stretch * (1 + 0.15f * std::sin(5 * p[0] + 3 * p[1]) * std::sin(4 * p[2]));
-  const size_t wanted = static_cast<size_t>(missing * static_cast<float>(mesh.faces.size()));
-  const size_t left = mesh.faces.size() - wanted;
-  while (mesh.faces.size() > left) {
-    const Vec3f middle = mesh.positions[mesh.faces[random.below(static_cast<uint32_t>(mesh.faces.size()))][0]];
-    const float radius = 0.05f + 0.15f * random.uniform();
-    for (size_t i = mesh.faces.size(); i-- > 0 && mesh.faces.size() > left;)
-      if (length(mesh.positions[mesh.faces[i][0]] - middle) < radius)
-        mesh.faces.erase(mesh.faces.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return mesh;
-}
-
-/// The share of rays from a point that come from the inside of a solid; those that meet nothing do not.
-float share_of_insides(const World& world, const FreeSpace& space, const Vec3f& point) {
-  Random random(2, 0);
-  int inside = 0;
-  for (int i = 0; i < 400; i++) {
-    Hit hit;
-    inside += world.surfaces().intersect({point, sample_sphere(random)}, random, hit) && space.from_inside(hit);
-  }
-  return static_cast<float>(inside) / 400;
-}
-
-// As scans are, up to 3 % of their area missing; with one side or two, in a room or under a sky.
-TEST(FreeSpace, KnowsSolidsWithHoles) {
-  for (uint64_t seed = 0; seed < 12; seed++) {
-    for (const float missing : {0.0f, 0.01f, 0.03f}) {
-      Scene scene = seed % 2 == 0 ? lit_room() : Scene{};
-      if (seed % 2 == 1) scene.environment.radiance = Vec3f::filled(1);
-      add(scene, ball_with_holes(missing, seed), lambertian(0.5f));
-      scene.materials.back().double_sided = seed % 4 < 2;
-      const auto world = world_of(scene);
-      const FreeSpace space = survey(*world);
-      // A few of its rays leave by the holes.
-      EXPECT_GT(share_of_insides(*world, space, {{0.1f, 0, 0.1f}}), 0.8f) << seed << ' ' << missing;
-      EXPECT_LT(share_of_insides(*world, space, {{2.4f, 0, 0}}), 0.02f) << seed << ' ' << missing;
-    }
-  }
-}
-
 // An open vessel encloses a volume, but light is in it.
 TEST(FreeSpace, TakesAnOpenVesselForNoSolid) {
   Scene scene = lit_room();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/trace/chi_square.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -44,6 +45,27 @@ TEST(TestPoints, TellTheErrorOfAGrid) {
   EXPECT_NEAR(test.error(furnace.grid(1.3f, 1.3f)), 0.3f, 0.02f);
   // Half of the area errs by 40 %, the other half not at all.
   EXPECT_NEAR(test.error(furnace.grid(1, 0.6f)), 0.4f * std::sqrt(0.5f), 0.03f);
+}
+
+// Those in free space are spread over the box evenly: where the grid is twice too bright each of them says where it is,
+// in 8 x 8 x 8 parts. Those on surfaces are SurfaceSampler's.
+TEST(TestPoints, InFreeSpaceLieAnywhere) {
+  Furnace furnace;
+  const TestPointOptions free{.surface_points = 0, .free_points = 20000, .rays = 16};
+  const TestPoints test = TestPoints::gather(furnace.light, free, furnace.silent).value();
+  const std::vector<TestPoints::Excess> found = test.excess(furnace.grid(2, 2));
+  EXPECT_GT(found.size(), free.free_points - 20) << "a point or two lie within the noise of their few rays";
+  const Box3f box = furnace.world->surfaces().bounds();
+  std::vector<int> counts(512);
+  for (const TestPoints::Excess& excess : found) {
+    size_t bin = 0;
+    for (int a = 0; a < 3; a++) {
+      const float share = (excess.position[a] - box.lo[a]) / box.size()[a];
+      bin = 8 * bin + static_cast<size_t>(std::clamp(share, 0.0f, 0.999999f) * 8);
+    }
+    counts[bin]++;
+  }
+  EXPECT_GT(chi_square_of_equal_bins(counts), least_probability);
 }
 
 // With few rays noise is larger than the errors that are looked for; a grid's error must not drown in it.

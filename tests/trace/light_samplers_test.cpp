@@ -78,7 +78,7 @@ TEST(LightSamplers, ChooseDirectionsToFacesWithTheirDensity) {
 // are far from their power, and the density tells what was made of them.
 TEST(LightSamplers, ChooseDirectionsToAPictureWithTheirDensity) {
   Scene scene = corner();
-  Mesh screen = quad({{0, 0.2f, -0.9f}}, {{0.8f, 0, 0}}, {{0, 0.6f, 0.3f}});
+  Mesh screen = quad({{0.95f, 0.1f, -0.4f}}, {{0, 0, 0.9f}}, {{0, 0.7f, 0}});
   screen.texcoords[0] = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
   add(scene, screen, lambertian(0, 60));
   scene.materials.back().emission_texture.image = 0;
