@@ -81,7 +81,7 @@ Result<Figures> write(const Options& options, Report& report) {
   for (const std::string& output : {options.output, options.light})
     if (!output.empty()) LW_CHECK(check_output(output, {options.pack}));
   LW_CHECK(refuse_builtin_scene(options.pack));
-  LW_TRY(pack, OpenedPack::open_file(options.pack));
+  LW_TRY(pack, with_input(options.pack, OpenedPack::open_file));
   Figures figures;
   if (!options.output.empty()) LW_CHECK(write_geometry(options, pack, report, figures));
   if (!options.light.empty()) LW_CHECK(write_light(options, pack, figures));
