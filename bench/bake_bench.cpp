@@ -289,7 +289,7 @@ int main(int count, char** arguments) {
     for (const uint64_t photons : {1'000'000, 8'000'000})
       if (photons > 1'000'000 || !kind.node_by_node) candidates.push_back({&kind, photons});
   candidates.push_back({&printed, 1'000'000});
-  if (count == 3 && asked == "--prefixes") {
+  if (count == 3 && std::string(arguments[1]) == "--prefixes") {
     std::printf("| room | nodes | lattice, error of the filled grid %% | slices %% |\n|---|---|---|---|\n");
     for (const char* room : {"a_cornell", "b_tworooms", "d_blob"})
       if (!prefixes(arguments[2], room)) return 1;
