@@ -66,17 +66,16 @@ void add_orientation_options(CLI::App& command, Orientation& orientation) {
       command, "--front", orientation.front, fronts,
       "Where the front of the file's object faces, which is seen first (default: z, of files with z up -y)");
   const auto take_angles = [&orientation](const std::string& text) -> Result<void> {
-    std::istringstream words(text);
-    std::string word;
-    Vec3d angles{};
-    int count = 0;
-    for (; std::getline(words, word, ','); count++) {
-      if (count == 3) break;
-      LW_TRY(angle, parse_number(word, {-360, 360}));
-      angles[count] = angle;
-    }
-    if (count != 3 || std::getline(words, word, ',') || text.back() == ',')
+    std::istringstream stream(text);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+    if (words.size() != 3 || text.back() == ',')
       return fail(text, "is not X,Y,Z (three angles in degrees, such as 0,90,0)");
+    Vec3d angles{};
+    for (int axis = 0; axis < 3; axis++) {
+      LW_TRY(angle, parse_number(words[static_cast<size_t>(axis)], {-360, 360}));
+      angles[axis] = angle;
+    }
     orientation.rotate = angles;
     return {};
   };

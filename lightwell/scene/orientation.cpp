@@ -38,7 +38,7 @@ Vec3d AxisDirection::vector() const {
 }
 
 Transform Orientation::transform() const {
-  LW_ASSERT(possible());
+  LW_ASSERT(!front || front->axis != up.axis);
   const AxisDirection usual = up.axis == 1 ? AxisDirection{.axis = 2} : AxisDirection{.axis = 1, .backwards = true};
   const Vec3d above = up.vector(), ahead = front.value_or(usual).vector(), right = cross(above, ahead);
   // Its rows are where the file has right, up and front.

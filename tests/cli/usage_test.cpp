@@ -210,7 +210,7 @@ TEST_F(Commands, UpAndUnitAreNotForScenesThatHaveTheirOwn) {
     for (const char* option : {" --unit 0.001", " --up z"}) {
       const Outcome outcome = run("bake --quiet " + scene + option + " -o " + path("x.glb"));
       EXPECT_EQ(outcome.status, 1);
-      EXPECT_NE(outcome.err.find("--up and --unit"), std::string::npos) << outcome.err;
+      EXPECT_NE(outcome.err.find("--up, --front, --rotate and --unit"), std::string::npos) << outcome.err;
     }
   }
 }
