@@ -20,8 +20,8 @@ struct LightBakeOptions {
   /// The root mean square error that is aimed at, a share of the mean irradiance: the larger, the fewer rays are taken.
   float target_error = 0.01f;
   /// An adaptive grid is divided until it errs by less than that; how long its stream may get, in bytes, one for each
-  /// group (the coarsest grid's own bytes are the least); and when it is not divided further, in seconds. A draft
-  /// begins coarser and is tested by fewer rays.
+  /// group (the coarsest grid's own bytes are the least); and about how long all may take, in seconds: where that is
+  /// little, it is a draft. A draft begins coarser and takes fewer rays.
   size_t most_bytes = 128 * 1024;
   double seconds = std::numeric_limits<double>::infinity();
   bool draft = false;

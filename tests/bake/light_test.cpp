@@ -373,7 +373,7 @@ TEST(BakeLight, AdaptiveGridsStopWhenTimeIsUp) {
   EXPECT_EQ(baked.statistics.refinement, Refinement::to_deadline);
   EXPECT_TRUE(baked.grid.bricks.empty());
   const TruthScore score = compare(baked.grid, "a_cornell.surf.indirect");
-  EXPECT_LT(score.rms, 0.15) << "17 nodes on the longest axis are coarse but right";
+  EXPECT_LT(score.rms, 0.15) << "9 nodes on the longest axis are coarse but right";
 }
 
 TEST(BakeLight, AdaptiveGridsNeedAMethodThatGoesNodeByNode) {
