@@ -224,6 +224,7 @@ bench_frame() {
   show node bench/frame.mjs "$(pack)"
   [ -e "$out/regular.lw.glb" ] || show "$lightwell" bake box-small --grid 32 -o "$out/regular.lw.glb" --quiet
   show node bench/frame.mjs "$(built_in box-small)" "$out/regular.lw.glb"
+  show node bench/first_picture.mjs "$(built_in box-small)" "$(pack)"
 }
 
 built_in() { # NAME: the path of a built-in scene's pack.
