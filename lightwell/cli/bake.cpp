@@ -282,7 +282,8 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   CLI::App* command =
       program.add_subcommand("bake", "Imports a scene, traces its light, orders its meshes, writes a pack");
   add_output(*command, options->output, {".glb"}, "The pack to write, FILE.glb; - is stdout")->required();
-  add_scene_options(*command, options->scene, "A glTF, OBJ, PLY, STL or Draco file, a pack, or a built-in scene; - is stdin");
+  add_scene_options(*command, options->scene,
+                    "A glTF, OBJ, PLY, STL or Draco file, a pack, or a built-in scene; - is stdin");
   add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
              "How far a vertex may move at most, in metres (default: a 32,000th of its mesh's longest side)");
   add_choice<LightNodeOrder>(

@@ -17,8 +17,9 @@ enum class Strategy : uint8_t {
 
 /// The run to request next: about `length` bytes of one stream; nullopt when nothing known is missing. Of the streams
 /// that the strategy puts first, it is the one whose run removes the largest share of its stream's first error (of
-/// bricks: of their grid's) per byte, times the stream's weight (`weights` has one per stream); ties go to light. `in_flight` is the number of such
-/// runs that fill the connection: a table page is requested before its stream runs dry.
+/// bricks: of their grid's) per byte, times the stream's weight (`weights` has one per stream); ties go to light.
+/// `in_flight` is the number of such runs that fill the connection: a table page is requested before its stream runs
+/// dry.
 std::optional<Run> choose(RunOrder& order, Strategy strategy, std::span<const float> weights, uint64_t length,
                           uint64_t in_flight);
 

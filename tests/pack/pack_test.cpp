@@ -94,7 +94,8 @@ TEST(Pack, TheIdCoversAllThatTheDirectorySaysOfStreams) {
     change(changed[1]);
     EXPECT_TRUE(ids.insert(id_of(changed)).second);
   };
-  expect_another([](PackStream& stream) { stream.kind = static_cast<StreamKind>((int(stream.kind) + 1) % stream_kinds); });
+  expect_another(
+      [](PackStream& stream) { stream.kind = static_cast<StreamKind>((int(stream.kind) + 1) % stream_kinds); });
   expect_another([](PackStream& stream) { stream.codec++; });
   expect_another([](PackStream& stream) { stream.error++; });
   expect_another([](PackStream& stream) { stream.parameters.push_back(0); });

@@ -90,7 +90,8 @@ TEST(LoadScene, TurnsPicturesThatGltfDoesNotKnowIntoPng) {
 TEST(LoadScene, TurnsAndScales) {
   const TemporaryFolder folder;
   Report report;
-  const auto scene = load_scene(folder.write("scan.ply.gz", gzipped(ply)), {.orientation = {.up = {.axis = 2}, .front = {}, .unit = 0.5f}}, report);
+  const auto scene = load_scene(folder.write("scan.ply.gz", gzipped(ply)),
+                                {.orientation = {.up = {.axis = 2}, .front = {}, .unit = 0.5f}}, report);
   ASSERT_TRUE(scene) << scene.error().message();
   EXPECT_EQ(scene->name, "scan");
   // z becomes up, y becomes away: (x, y, z) -> (x, z, -y) / 2.
