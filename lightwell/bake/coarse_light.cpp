@@ -15,8 +15,6 @@ namespace {
 /// The memory that the threads' sums may take together, bytes; where it does not suffice, fewer threads add up.
 constexpr size_t sums_limit = size_t(768) << 20;
 
-int scaled(int count, float share) { return static_cast<int>(std::lround(static_cast<float>(count) * share)); }
-
 /// Gives a grid an even number of cells on each axis, as bricks need.
 void make_divisible(GridShape& shape) {
   for (int a = 0; a < 3; a++) {

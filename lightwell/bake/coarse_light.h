@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -28,6 +29,9 @@ struct Effort {
 constexpr int coarse_nodes = 17, coarsest_nodes = 9;
 /// Less than so large a share of the usual rays shows as noise before it is measured.
 constexpr float least_rays = 0.25f;
+
+/// A share of a number of rays or points.
+inline int scaled(int count, float share) { return static_cast<int>(std::lround(static_cast<float>(count) * share)); }
 
 /// The part of a scene that grids cover.
 struct Place {

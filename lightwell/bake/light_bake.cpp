@@ -18,8 +18,6 @@ constexpr size_t share_of_surroundings = 8;
 
 using Clock = std::chrono::steady_clock;
 
-int scaled(int count, float share) { return static_cast<int>(std::lround(static_cast<float>(count) * share)); }
-
 /// Of the light that test points are told, as far as that is to be had: what is left is taken out of their error, which
 /// cannot tell much smaller ones.
 constexpr float most_noise = 0.02f;

@@ -56,7 +56,6 @@ test('under an even sky what is white looks alike, metal or not', async (t) => {
       }),
     );
   }, { count: names.length, radius: RADIUS });
-  writeFileSync(`${folder}/balls.png`, Buffer.from((await page.evaluate(() => document.querySelector('lightwell-view').toDataURL())).split(',')[1], 'base64'));
   // Half of the radiance of 1, by the exposure.
   names.forEach((name, i) =>
     found[i].forEach((light, k) => assert.ok(Math.abs(light - 0.5) < LOST / 2 + 0.003, `${name}, place ${k}: ${found[i]}`)),

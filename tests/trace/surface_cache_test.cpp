@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "lightwell/trace/paths.h"
+#include "tests/mesh/divided.h"
 #include "tests/trace/scenes.h"
 
 namespace lightwell {
@@ -112,22 +113,6 @@ TEST(SurfaceCache, KeepsADarkRoomDark) {
   const SurfaceCache cache = build(*world, {.region = both, .cell = 0.2f}, viewpoints_in(both, 6));
   EXPECT_GT(cache.irradiance({{1, 0, 1}}, {{0, 1, 0}})[0], 1);
   EXPECT_EQ(cache.irradiance({{3, 0, 1}}, {{0, 1, 0}}), Vec3f{});
-}
-
-/// The same surface in 4^times as many faces.
-Mesh divided(Mesh mesh, int times) {
-  for (int i = 0; i < times; i++) {
-    Mesh fine;
-    for (const Face& f : mesh.faces) {
-      const Vec3f &a = mesh.positions[f[0]], &b = mesh.positions[f[1]], &c = mesh.positions[f[2]];
-      const auto first = static_cast<uint32_t>(fine.positions.size());
-      for (const Vec3f& p : {a, b, c, (a + b) / 2.0f, (b + c) / 2.0f, (c + a) / 2.0f}) fine.positions.push_back(p);
-      for (const Face& part : {Face{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}})
-        fine.faces.push_back({first + part[0], first + part[1], first + part[2]});
-    }
-    mesh = std::move(fine);
-  }
-  return mesh;
 }
 
 /// A lit room with a block in it, of 4^times as many faces as it needs.
