@@ -8,7 +8,6 @@
 #include "lightwell/asset/texture_asset.h"
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/gltf/parsed_document.h"
-#include "lightwell/light/lattice_stream.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/lamps_extension.h"
 
@@ -126,18 +125,26 @@ Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level,
   return document;
 }
 
+Result<std::map<uint32_t, BricksLayout>> bricks_of_grid(const Directory& directory, size_t grid) {
+  std::map<uint32_t, BricksLayout> bricks;
+  for (uint32_t stream = 0; stream < directory.streams.size(); stream++) {
+    const StreamEntry& entry = directory.streams[stream];
+    if (entry.kind != StreamKind::bricks) continue;
+    LW_TRY(layout, BricksLayout::read(entry.parameters));
+    if (layout.grid == grid) bricks[stream] = layout;
+  }
+  return bricks;
+}
+
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level) {
   AssetContext context{.bin = glb_chunks(pack.opening()).bin};
   LW_TRY(light, open_asset_as<LightAsset>(pack.directory(), stream, context));
   const double wanted = static_cast<double>(level.share) * static_cast<double>(light->total());
   const auto more = [&](uint32_t) { return static_cast<double>(light->received()) < wanted; };
   LW_CHECK(append_blocks(pack, stream, *light, more));
-  for (size_t other = stream + 1; other < pack.directory().streams.size(); other++) {
-    const StreamEntry& entry = pack.directory().streams[other];
-    if (entry.kind != StreamKind::bricks) continue;
-    LW_TRY(layout, BricksLayout::read(entry.parameters));
-    if (layout.grid != stream) continue;
-    LW_TRY(bricks, open_asset(pack.directory(), static_cast<uint32_t>(other), context));
+  LW_TRY(of_grid, bricks_of_grid(pack.directory(), stream));
+  for (const auto& [other, layout] : of_grid) {
+    LW_TRY(bricks, open_asset(pack.directory(), other, context));
     LW_CHECK(append_blocks(pack, other, *bricks, more));
   }
   if (level.share >= 1 && light->received() < light->total())

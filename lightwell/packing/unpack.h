@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 
 #include "lightwell/asset/codecs.h"
 #include "lightwell/gltf/document.h"
+#include "lightwell/light/lattice_stream.h"
 #include "lightwell/light/push_pull.h"
 #include "lightwell/mesh/mesh.h"
 #include "lightwell/pack/opening.h"
@@ -47,6 +49,9 @@ struct LightLevel {
   Fill fill = Fill::push_pull;
   LightLookup lookup = LightLookup::trilinear;
 };
+
+/// The streams of bricks of a light stream's grid, and what they say. Fails for invalid parameters of any such stream.
+Result<std::map<uint32_t, BricksLayout>> bricks_of_grid(const Directory& directory, size_t grid);
 
 /// The light grid of a light stream at the given level. Fails when `share` is 1 and the stream is incomplete.
 Result<LightGrid> unpack_light(const PackReader& pack, size_t stream, const LightLevel& level);

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "lightwell/asset/light_asset.h"
-#include "lightwell/light/lattice_stream.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/unpack.h"
@@ -66,12 +65,10 @@ Result<std::vector<BricksDescription>> bricks_of(const OpenedPack& pack, uint32_
   const std::vector<StreamEntry>& streams = pack.reader().directory().streams;
   if (streams[grid].codec != light_codec_lattice) return bricks;
   LW_TRY(layout, LatticeLayout::read(streams[grid].parameters));
-  for (uint32_t stream = 0; stream < streams.size(); stream++) {
-    if (streams[stream].kind != StreamKind::bricks) continue;
-    LW_TRY(parameters, BricksLayout::read(streams[stream].parameters));
-    if (parameters.grid == grid && parameters.region < layout.regions.size())
+  LW_TRY(of_grid, bricks_of_grid(pack.reader().directory(), grid));
+  for (const auto& [stream, parameters] : of_grid)
+    if (parameters.region < layout.regions.size())
       bricks.push_back(describe_bricks(layout.shape, layout.regions[parameters.region], stream));
-  }
   return bricks;
 }
 
