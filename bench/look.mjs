@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// look.mjs FOLDER SCENE...: what a user sees of a default bake: the page at rest and `render --integrator ivg`, each against the path
+// look.mjs FOLDER [--environment R,G,B|FILE] SCENE...: what a user sees of a default bake: the page at rest and `render --integrator ivg`, each against the path
 // tracer from the same camera, CIEDE2000 over 320 x 180 pixels, and the path tracer against itself with another seed, its noise; a row of
 // a table a scene, and FOLDER/SCENE.png with the pictures side by side and four times the difference between page and path tracer. A
-// scene without a lamp stands under a uniform sky.
+// scene without a lamp stands under a uniform sky, all do under an environment that is given.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
 import { basename, join } from 'node:path';
@@ -20,13 +20,14 @@ const GRID_SAMPLES = 64;
 const SHADOW_POINTS = 64;
 const SHADOW_SECONDS = 60;
 const GAIN = 4;
+const UNIFORM = '1,1,1';
 
 const lightwell = (...options) => execFileSync(`${BIN}/lightwell`, [...options, '--quiet', '--json'], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 
-/** Bakes a scene, under a uniform sky if it has no light of its own; gives the bake's figures and the options of the sky. */
-function bakeLit(scene, pack) {
+/** Bakes a scene, under a uniform sky if it has no light of its own and no other is given; gives the bake's figures and the options of the sky. */
+function bakeLit(scene, pack, environment) {
   const errors = [];
-  for (const sky of [[], ['--environment', '1,1,1']])
+  for (const sky of environment === undefined ? [[], ['--environment', UNIFORM]] : [['--environment', environment]])
     try {
       return { sky, figures: JSON.parse(lightwell('bake', scene, '-o', pack, ...sky)) };
     } catch (error) {
@@ -64,13 +65,13 @@ function difference(picture, reference) {
 }
 
 /** A row of the table; the light straight from a sky is in the grid, so it is indirect there and direct in the path tracer. */
-async function look(browser, scene, folder) {
+async function look(browser, scene, folder, environment) {
   const parts = join(folder, 'parts', basename(scene));
   mkdirSync(parts, { recursive: true });
   const names = ['page', 'ivg', 'path', 'again', 'page_indirect', 'path_indirect'];
   const files = Object.fromEntries(names.map((name) => [name, join(parts, `${name}.png`)]));
   const pack = join(parts, 'pack.lw.glb');
-  const { sky, figures } = bakeLit(scene, pack);
+  const { sky, figures } = bakeLit(scene, pack, environment);
   const { exposure, points } = await shootPage(browser, pack, files);
   const view = ['--size', '320x180', '--exposure', String(exposure)];
   const path = ['--integrator', 'path', '--spp', String(PATH_SAMPLES), ...view, ...sky];
@@ -78,7 +79,7 @@ async function look(browser, scene, folder) {
   lightwell('render', scene, '-o', files.path, ...path);
   lightwell('render', scene, '-o', files.again, ...path, '--seed', '2');
   const apart = !figures.grids.some(({ contains }) => contains.includes('environment'));
-  if (sky.length > 0) await putBeforeSky(browser, files.page, files.path);
+  if (sky[1] === UNIFORM) await putBeforeSky(browser, files.page, files.path);
   if (apart) lightwell('render', scene, '-o', files.path_indirect, '--only', 'indirect', ...path);
   await writeSheet(
     browser,
@@ -92,19 +93,21 @@ async function look(browser, scene, folder) {
     GAIN,
   );
   const indirect = apart ? difference(files.page_indirect, files.path_indirect) : '- | -';
-  const name = basename(scene) + (sky.length > 0 ? ', uniform sky' : '');
+  const name = basename(scene) + (sky.length === 0 ? '' : sky[1] === UNIFORM ? ', uniform sky' : `, ${basename(sky[1])}`);
   const total = [files.page, files.ivg, files.again].map((file) => difference(file, files.path));
   return `| ${[name, points === Infinity ? 'all' : points, ...total, indirect].join(' | ')} |`;
 }
 
-const [folder, ...scenes] = process.argv.slice(2);
-if (scenes.length === 0) throw new Error('usage: node bench/look.mjs FOLDER SCENE...');
+const [folder, ...rest] = process.argv.slice(2);
+const environment = rest[0] === '--environment' ? rest[1] : undefined;
+const scenes = environment === undefined ? rest : rest.slice(2);
+if (scenes.length === 0) throw new Error('usage: node bench/look.mjs FOLDER [--environment R,G,B|FILE] SCENE...');
 const browser = await launch();
 try {
   const pairs = ['page', 'ivg', 'noise', 'page, indirect'].map((what) => `${what}: mean | 95th percentile`);
   console.log(`| scene | points a lamp | ${pairs.join(' | ')} |\n|${'---|'.repeat(10)}`);
   for (const scene of scenes)
-    console.log(await look(browser, scene, folder).catch((error) => `| ${basename(scene)} | left out: ${String(error.stderr ?? error).trim()} |`));
+    console.log(await look(browser, scene, folder, environment).catch((error) => `| ${basename(scene)} | left out: ${String(error.stderr ?? error).trim()} |`));
 } finally {
   await browser.close();
 }

@@ -23,6 +23,10 @@ Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, I
   LW_TRY(document, unpack_document(pack, level, report));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report,
                                     pack.identity().origin, images));
+  LW_TRY(surroundings, unpack_environment(pack, images));
+  // What the document notes of a sky is exact.
+  if (surroundings && scene.environment.radiance == Vec3f{})
+    scene.environment = {Vec3f::filled(1), std::make_shared<RadianceImage>(std::move(*surroundings))};
   return OpenedScene{std::move(scene), std::move(pack)};
 }
 

@@ -34,11 +34,13 @@ Result<void> OpenedPack::read_json() {
   LW_TRY(lamps, read_lamps(json_));
   LW_TRY(primitives, read_refined_primitives(json_));
   LW_TRY(textures, read_refined_textures(json_));
+  LW_TRY(environment, read_environment_picture(json_));
   identity_ = std::move(identity);
   grids_ = std::move(grids);
   lamps_ = std::move(lamps);
   primitives_ = std::move(primitives);
   textures_ = std::move(textures);
+  environment_ = environment;
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lightwell/pack/reader.h"
+#include "lightwell/packing/environment_extension.h"
 #include "lightwell/packing/grids_extension.h"
 #include "lightwell/packing/mesh_extension.h"
 #include "lightwell/packing/streams_extension.h"
@@ -35,6 +36,8 @@ class OpenedPack {
   const std::vector<ClientLamp>& lamps() const { return lamps_; }
   const std::vector<RefinedPrimitive>& primitives() const { return primitives_; }
   const std::vector<RefinedTexture>& textures() const { return textures_; }
+  /// The picture of what surrounds the scene, where that has one.
+  const std::optional<EnvironmentPicture>& environment() const { return environment_; }
 
  private:
   explicit OpenedPack(PackReader reader) : reader_(std::move(reader)) {}
@@ -48,6 +51,7 @@ class OpenedPack {
   std::vector<ClientLamp> lamps_;
   std::vector<RefinedPrimitive> primitives_;
   std::vector<RefinedTexture> textures_;
+  std::optional<EnvironmentPicture> environment_;
 };
 
 }  // namespace lightwell

@@ -62,6 +62,9 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   use_extension(json, grids_extension);
   json["extensions"][lamps_extension] = to_json(light.lamps);
   use_extension(json, lamps_extension);
+  if (!content.environment) return;
+  json["extensions"][environment_extension] = to_json(*content.environment);
+  use_extension(json, environment_extension);
 }
 
 void add_pack_identity(Json& json, const PackId& id, float exposure, const Vec3d& origin) {

@@ -3,6 +3,7 @@
 
 #include "lightwell/pack/writer.h"
 #include "lightwell/packing/encoded_light.h"
+#include "lightwell/packing/environment_picture.h"
 #include "lightwell/packing/pack_images.h"
 #include "lightwell/packing/pack_light.h"
 #include "lightwell/packing/pack_meshes.h"
@@ -15,6 +16,7 @@ struct PackContent {
   EncodedLight light;
   std::vector<StreamedMesh> meshes;
   std::vector<StreamedImage> images;
+  std::optional<EnvironmentPicture> environment;
 
   size_t grid_stream(size_t index) const { return index; }
   size_t mesh_stream(size_t index) const { return light.streams.size() + index; }
@@ -22,7 +24,7 @@ struct PackContent {
 };
 
 /// Adds the extensions that do not depend on the pack's id: LIGHTWELL_progressive_mesh, LIGHTWELL_progressive_texture,
-/// LIGHTWELL_light_grids and LIGHTWELL_lamps (docs/format.md).
+/// LIGHTWELL_light_grids, LIGHTWELL_lamps and LIGHTWELL_environment (docs/format.md).
 void add_extensions(Document& document, const Scene& scene, const PackLight& light, const PackContent& content);
 
 /// Adds LIGHTWELL_streams: format version, id, generator and exposure (EV).

@@ -153,6 +153,7 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   name_scene(document.json, scene.name);
   shrink_meshes(scene, content.meshes, document, report);
   if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
+  content.environment = add_environment(scene, document);
   content.images = shrink_images(scene, document);
   PackLight stated = light;
   stated.lamps = lamps_of_pack(light.lamps, scene, content.meshes);

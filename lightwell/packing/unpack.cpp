@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/unpack.h"
 
+#include <algorithm>
 #include <array>
 
 #include "lightwell/asset/light_asset.h"
@@ -9,7 +10,9 @@
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/gltf/parsed_document.h"
 #include "lightwell/pack/opening.h"
+#include "lightwell/packing/environment_picture.h"
 #include "lightwell/packing/lamps_extension.h"
+#include "lightwell/texture/image_file.h"
 
 namespace lightwell {
 namespace {
@@ -91,7 +94,8 @@ Result<void> complete_images(Document& document, const PackRefinement& refinemen
 
 // Removes the LIGHTWELL_ extensions, which do not hold for the refined document.
 void drop_extensions(Json& json) {
-  constexpr std::array names = {streams_extension, grids_extension, lamps_extension, mesh_extension, texture_extension};
+  constexpr std::array names = {streams_extension, grids_extension,   lamps_extension,
+                                mesh_extension,    texture_extension, environment_extension};
   const auto drop = [&](Json& object) {
     if (!object.contains("extensions")) return;
     for (const char* name : names) object["extensions"].erase(name);
@@ -106,11 +110,49 @@ void drop_extensions(Json& json) {
   for (const char* name : names) forget_extension(json, name);
 }
 
+void drop_last(Json& json, const char* array) {
+  json[array].erase(json[array].size() - 1);
+  if (json[array].empty()) json.erase(array);
+}
+
+/// Removes the picture of the surroundings, the last texture and the last image, where the baker appends it: no
+/// material shows it.
+void drop_environment(Json& json) {
+  const Json& textures = member(json, "textures");
+  const int texture = index_of(extension(json, environment_extension), "texture");
+  if (texture < 0 || texture + 1 != static_cast<int>(textures.size())) return;
+  const int image = index_of(element(textures, static_cast<size_t>(texture)), "source");
+  const auto shows = [&](const Json& other) { return index_of(other, "source") == image; };
+  const bool alone = std::ranges::count_if(textures, shows) == 1;
+  drop_last(json, "textures");
+  if (alone && image + 1 == static_cast<int>(member(json, "images").size())) drop_last(json, "images");
+}
+
+/// The file of a texture's image: of the stream that brings it, or in the opening.
+Result<std::vector<uint8_t>> image_of_texture(const OpenedPack& pack, uint32_t texture) {
+  for (const RefinedTexture& refined : pack.textures())
+    if (refined.texture == texture) return unpack_image(pack.reader(), refined.stream);
+  Report ignored;
+  LW_TRY(document, read_document(pack.json(), pack.bin(), ignored));
+  return read_image(document, index_of(element(member(pack.json(), "textures"), texture), "source"));
+}
+
 }  // namespace
+
+Result<std::optional<RadianceImage>> unpack_environment(const OpenedPack& pack, ImageLimit limit) {
+  if (!pack.environment()) return std::nullopt;
+  const auto image = [&]() -> Result<Image> {
+    LW_TRY(file, image_of_texture(pack, pack.environment()->texture));
+    return read_image_file(file, limit);
+  }();
+  if (!image) return fail(image.error().kind, environment_extension, image.error().message());
+  return decoded(*image, *pack.environment());
+}
 
 Result<void> refine_document(Document& document, const PackRefinement& refinement) {
   LW_CHECK(refine_meshes(document, refinement));
   LW_CHECK(complete_images(document, refinement));
+  drop_environment(document.json);
   drop_extensions(document.json);
   drop_unused(document);
   return {};

@@ -11,6 +11,7 @@
 #include "lightwell/mesh/mesh.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/opened_pack.h"
+#include "lightwell/texture/image.h"
 
 namespace lightwell {
 
@@ -41,6 +42,9 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
 
 /// The glTF of a pack with meshes of the given level and full images, without LIGHTWELL_ extensions.
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report);
+
+/// The radiance of what surrounds the scene of a pack; nothing where it has no picture of that.
+Result<std::optional<RadianceImage>> unpack_environment(const OpenedPack& pack, ImageLimit limit);
 
 /// The part of a light grid to unpack: the first bundles that together hold at least `share` of its nodes. The
 /// remaining nodes are filled. And how the light between them is found.

@@ -37,8 +37,10 @@ Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
   return {};
 }
 
+// The picture of the surroundings is no image of the scene: verify_sky reads it.
 Result<void> verify_images(const OpenedPack& pack, const Scene& scene) {
   for (const RefinedTexture& refined : pack.textures()) {
+    if (refined.source >= scene.images.size()) continue;
     const Image& image = scene.images[refined.source];
     LW_TRY(file, read_image(scene.document, static_cast<int>(refined.source)));
     if (image.width != static_cast<int>(refined.width) || image.height != static_cast<int>(refined.height) ||
@@ -48,9 +50,14 @@ Result<void> verify_images(const OpenedPack& pack, const Scene& scene) {
   return {};
 }
 
-// A sky of one colour stands in the JSON, and its light in the grids.
+// What surrounds the scene stands in the JSON or is a picture, and its light is in the grids.
 Result<void> verify_sky(const OpenedPack& pack, const Scene& scene) {
-  if (scene.environment.radiance == Vec3f{} || contents_of(pack.grids()).environment) return {};
+  LW_TRY(picture, unpack_environment(pack, highest_image_limit));
+  for (const RefinedTexture& refined : pack.textures())
+    if (picture && refined.texture == pack.environment()->texture &&
+        (picture->width != static_cast<int>(refined.width) || picture->height != static_cast<int>(refined.height)))
+      return fail(environment_extension, "its picture is not of the size that its stream states");
+  if ((scene.environment.radiance == Vec3f{} && !picture) || contents_of(pack.grids()).environment) return {};
   return fail(grids_extension, "no grid has the light of the scene's sky");
 }
 

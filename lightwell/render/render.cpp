@@ -43,7 +43,7 @@ class Renderer {
     rays++;
     if (!surfaces.intersect(ray, random, hit))
       return total ? hit.tint * factors().of(world_.lights().environment_luminaire()) *
-                         world_.lights().environment().radiance(ray.direction)
+                         world_.lights().environment().seen(ray.direction)
                    : Vec3f{};
     const Surface surface = surfaces.surface(hit);
     const Receiver receiver = Receiver::seen(surfaces, hit, surface, ray.direction);

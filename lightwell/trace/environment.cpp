@@ -33,6 +33,22 @@ Vec3f EnvironmentLight::radiance(const Vec3f& direction) const {
   return map_ ? scale_ * pixel_radiance(*map_, pixel(direction)) : scale_;
 }
 
+Vec3f EnvironmentLight::seen(const Vec3f& d) const {
+  if (!map_) return scale_;
+  const float x = (0.5f + std::atan2(d[0], -d[2]) / (2 * pi)) * static_cast<float>(map_->width) - 0.5f;
+  const float y = std::acos(std::clamp(d[1], -1.0f, 1.0f)) / pi * static_cast<float>(map_->height) - 0.5f;
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  const float right = x - static_cast<float>(column), below = y - static_cast<float>(row);
+  const auto at = [&](int i, int j) {
+    const int around = (i + map_->width) % map_->width, within = std::clamp(j, 0, map_->height - 1);
+    return pixel_radiance(*map_,
+                          static_cast<size_t>(within) * static_cast<size_t>(map_->width) + static_cast<size_t>(around));
+  };
+  const Vec3f upper = at(column, row) * (1 - right) + at(column + 1, row) * right;
+  const Vec3f lower = at(column, row + 1) * (1 - right) + at(column + 1, row + 1) * right;
+  return scale_ * (upper * (1 - below) + lower * below);
+}
+
 // Radiance and density are taken from the chosen pixel: looked up again from the direction, they could by rounding be
 // those of a black neighbour.
 EnvironmentLight::Sample EnvironmentLight::sample(Random& random) const {

@@ -20,6 +20,8 @@ class EnvironmentLight {
   const Vec3f& mean() const { return mean_; }
   /// Radiance that arrives from a unit direction (pointing towards the environment).
   Vec3f radiance(const Vec3f& direction) const;
+  /// The same as a picture shows it, without the borders of pixels: between their middles it changes linearly.
+  Vec3f seen(const Vec3f& direction) const;
   struct Sample {
     Vec3f direction{};  ///< unit, towards the environment
     Vec3f radiance{};   ///< W/m2/sr, never black

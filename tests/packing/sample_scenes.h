@@ -37,14 +37,25 @@ struct Packed {
   std::vector<std::string> warnings;
 };
 
+/// An uneven sky, 12 stops from its darkest to its brightest.
+inline Environment some_sky(int width, int height) {
+  auto map = std::make_shared<RadianceImage>(RadianceImage{width, height, {}});
+  for (int i = 0; i < width * height; i++) {
+    const float along = static_cast<float>(i) / static_cast<float>(width * height);
+    for (const float channel : {1.0f, 0.8f, 0.5f}) map->pixels.push_back(channel * std::exp2(6 - 12 * along));
+  }
+  return {Vec3f::filled(1), std::move(map)};
+}
+
 /// The pack of a document under that light.
-inline Packed pack(Document document, const std::vector<ClientLamp>& lamps = {}) {
+inline Packed pack(Document document, const std::vector<ClientLamp>& lamps = {}, Environment environment = {}) {
   Packed packed;
   Report report;
   packed.scene = scene_from_document(std::move(document), "test", report).value();
+  packed.scene.environment = std::move(environment);
   const LightGrid grid = some_light(packed.scene.bounds());
   PackLight light;
-  light.grids = {{.grid = &grid}};
+  light.grids = {{.grid = &grid, .contains = {.environment = packed.scene.environment.map != nullptr}}};
   light.lamps = lamps;
   light.exposure = 1.5f;
   Progress progress;

@@ -9,7 +9,7 @@
 
 namespace lightwell {
 
-/// A small pack that has everything: a mesh and an image that are streamed, a lamp, a punctual light, a camera.
+/// A small pack that has everything: a mesh, an image and a sky that are streamed, a lamp, a punctual light, a camera.
 inline Packed pack_of_everything() {
   Document document = sheet_document(50);
   add_noise(document, 32);
@@ -22,7 +22,7 @@ inline Packed pack_of_everything() {
   ClientLamp lamp;
   lamp.kind = ClientLamp::Kind::rectangle;
   lamp.luminaire = {LuminaireId::Kind::surface, 0, 0, 0, 0};
-  return pack(std::move(document), {lamp});
+  return pack(std::move(document), {lamp}, some_sky(128, 64));
 }
 
 /// Changes one stream of the directory: its parameters, what a row says, its error or its kind.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lightwell/scene/sky_map.h"
 #include "tests/trace/chi_square.h"
 
 namespace lightwell {
@@ -105,6 +106,31 @@ TEST(EnvironmentLight, OfBlackAndBrightPixelsIsFinite) {
     ASSERT_GT(arrival.radiance[0], 0) << i;
     ASSERT_GT(arrival.density, 0) << i;
     ASSERT_TRUE(is_finite(light.emit(region, random).flux)) << i;
+  }
+}
+
+// A picture of it has no borders of pixels, and none where the map's left and right meet.
+TEST(EnvironmentLight, IsSeenWithoutBorders) {
+  RadianceImage map{8, 4, {}};
+  Random random(5, 0);
+  for (int i = 0; i < 8 * 4 * 3; i++) map.pixels.push_back(random.uniform());
+  const Environment environment = environment_of(map);
+  const EnvironmentLight light(environment);
+  // From the angles' rounding, times the steepest change from pixel to pixel.
+  constexpr float rounding = 1e-4f;
+  for (size_t i = 0; i < 32; i++) {
+    const Vec3f middle = pixel_direction(map, i);
+    EXPECT_LT(
+        max_component(max(light.seen(middle) - light.radiance(middle), light.radiance(middle) - light.seen(middle))),
+        rounding);
+  }
+  for (int i = 0; i < 1000; i++) {
+    const Vec3f direction = sample_sphere(random);
+    const Vec3f near = normalized(direction + sample_sphere(random) * 1e-4f);
+    const Vec3f step = light.seen(near) - light.seen(direction);
+    // Pixels are 0.8 wide; within a tenth of the pole they are narrower.
+    if (std::abs(direction[1]) >= 0.9f) continue;
+    EXPECT_LT(max_component(max(step, -step)), 2e-3f);
   }
 }
 

@@ -11,6 +11,7 @@ export interface LightwellViewAttributes {
   'camera-target'?: string;
   'field-of-view'?: string;
   exposure?: number | string;
+  'environment-background'?: 'sharp' | 'blurred' | 'none';
   light?: 'all' | 'off' | 'direct' | 'indirect';
   'light-lookup'?: 'trilinear' | 'tricubic';
   shadows?: 'soft' | 'hard' | 'off';
@@ -31,6 +32,7 @@ export const DRAWN_ATTRIBUTES = [
   'camera-target',
   'field-of-view',
   'exposure',
+  'environment-background',
   'light',
   'shadows',
   'tone',
@@ -41,6 +43,7 @@ export const DRAWN_ATTRIBUTES = [
   'measure',
   'raking-light',
 ];
+export const BACKGROUNDS = ['sharp', 'blurred', 'none'] as const;
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;
 export const SHADOWS = ['soft', 'hard', 'off'] as const;

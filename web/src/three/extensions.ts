@@ -80,9 +80,17 @@ export interface LampDefinition {
   primitive?: number;
 }
 
+/** The picture of what surrounds the scene: a byte of its texture stands for the radiance * 2 ^ (stops * (byte / 255 - 1)). */
+export interface EnvironmentDefinition {
+  texture: number;
+  radiance: number;
+  stops: number;
+}
+
 /** The extensions that stand at the root of a pack's JSON. */
 export interface PackExtensions {
   LIGHTWELL_streams?: StreamsExtension;
   LIGHTWELL_light_grids?: { grids: LightGridDefinition[] };
   LIGHTWELL_lamps?: { lamps: LampDefinition[] };
+  LIGHTWELL_environment?: EnvironmentDefinition;
 }

@@ -3,10 +3,16 @@ import {
   Box3,
   type BufferGeometry,
   type Camera,
+  DataTexture,
   DoubleSide,
+  EquirectangularReflectionMapping,
   Group,
+  HalfFloatType,
+  LinearFilter,
   type Material,
   type Object3DEventMap,
+  RepeatWrapping,
+  type Texture,
   Vector3,
   type WebGLRenderer,
 } from 'three';
@@ -26,6 +32,7 @@ import type { DirectLight, Shadows } from './direct/direct_light.js';
 import type { Lamp } from './direct/lamp.js';
 import { DIRECT_KIT } from './direct_kit.js';
 import { disposeAll } from './dispose.js';
+import type { Environment } from './environment.js';
 import { assetOf } from './extensions.js';
 import { FrameScheduler, type FrameTask } from './frame_scheduler.js';
 import { HandOver } from './hand_over.js';
@@ -67,6 +74,12 @@ export interface SceneOptions {
 /** As the baker has it. The memory for an image is taken before it comes, on the word of the pack. */
 const USUAL_MEGAPIXELS = 64;
 
+/** What the script of the environment takes of three.js, as DIRECT_KIT is for that of the lamps. */
+const ENVIRONMENT_KIT = { DataTexture, EquirectangularReflectionMapping, HalfFloatType, LinearFilter, RepeatWrapping };
+
+/** The images of materials, and of what surrounds the scene. */
+type Images = Map<number, TextureRefinement | Environment>;
+
 /**
  * A pack in a three.js scene. It refines itself, whoever draws it: in each of the browser's animation frames at most 256 KB go to
  * the renderer's GPU, into buffers and textures that have their final sizes from the start; a picture is worth drawing only at a
@@ -80,6 +93,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly opening: Opening;
   /** Stops of exposure that the baker chose. */
   readonly exposure: number;
+  /**
+   * What surrounds the scene, where the pack has a picture of that: for `scene.environment`, which then is what metals and gloss
+   * mirror, as far as the baked light lets it, and for `scene.background`. It gets sharper in its place.
+   */
+  readonly environment: Texture | null;
   /** The final bounds of the pack's meshes, in the pack's space. */
   readonly bounds: Box3;
   /** What the pack is about: the part that its first grid covers. A ground may reach far beyond it. */
@@ -87,7 +105,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #connection: PackConnection;
   readonly #renderer: WebGLRenderer;
   readonly #meshes = new Map<number, MeshRefinement>();
-  readonly #images: Map<number, TextureRefinement>;
+  readonly #images: Images;
+  readonly #environment: Environment | null;
   readonly #lights = new Map<number, LightRefinement>();
   readonly #groups: LightGroups | null;
   #direct: DirectLight | null = null;
@@ -101,7 +120,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   private constructor(
     opening: Opening,
-    images: Map<number, TextureRefinement>,
+    images: Images,
+    environment: Environment | null,
     grids: LightwellLight[],
     groups: LightGroups | null,
     connection: PackConnection,
@@ -112,6 +132,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#groups = groups;
     this.opening = opening;
     this.#images = images;
+    this.#environment = environment;
+    this.environment = environment?.texture ?? null;
     this.#connection = connection;
     this.#renderer = renderer;
     this.#handOver = new HandOver(renderer);
@@ -146,14 +168,17 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const states = groups?.states() ?? lights;
     const grids = (groups?.definitions ?? definitions).map((grid, i) => new LightwellLight(grid, states[i]!, options.lookup));
     for (const { texture } of grids) checkSize(texture, renderer);
-    const images = new Map<number, TextureRefinement>();
+    const images: Images = new Map();
     const most = options.maxImageMegapixels || USUAL_MEGAPIXELS;
     for (const [asset, { extension, textures }] of opening.images) {
       const { width, height } = extension;
       if (width * height <= most * 2 ** 20) images.set(asset, await TextureRefinement.create(textures, { width, height }, renderer));
       else console.warn(`Lightwell: an image of ${width} x ${height} pixels stays coarse; maxImageMegapixels is ${most}`);
     }
-    const scene = new LightwellScene(opening, images, grids, groups, connection, renderer, options);
+    const { surroundings } = opening;
+    const environment = surroundings && new (await import('./environment.js')).Environment(ENVIRONMENT_KIT, surroundings);
+    if (typeof surroundings?.asset === 'number') images.set(surroundings.asset, environment!);
+    const scene = new LightwellScene(opening, images, environment, grids, groups, connection, renderer, options);
     const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
     if (lamps.length > 0) {
       const { DirectLight } = await import('./direct/direct_light.js');
@@ -276,6 +301,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     this.#direct?.dispose();
+    this.#environment?.dispose();
     disposeAll(this.opening.gltf.scene);
   }
 
