@@ -41,10 +41,7 @@ Result<void> MeshAsset::append(Bytes payload) {
   return decode(payload);
 }
 
-bool MeshAsset::complete() const {
-  const MeshBuffers now = buffers();
-  return now.vertices == layout_.vertices && now.faces == layout_.faces;
-}
+bool MeshAsset::complete() const { return buffers().complete; }
 
 std::optional<Update> MeshAsset::announce() { return MeshUpdate{asset_, layout_.vertices, layout_.faces, attributes_}; }
 
@@ -60,8 +57,11 @@ std::optional<Update> MeshAsset::take(size_t budget) {
 void MeshAsset::start_batch() {
   const MeshChanges changes = take_changes();
   const MeshBuffers now = buffers();
-  for (uint32_t i = 0; i < attributes_.size(); i++)
-    enqueue(i, bytes_of(now, attributes_[i].semantic), attributes_[i].stride, changes.vertices);
+  for (uint32_t i = 0; i < attributes_.size(); i++) {
+    const auto& [semantic, component, components, normalized, stride] = attributes_[i];
+    enqueue(i, bytes_of(now, semantic), stride, changes.vertices);
+    if (semantic == Semantic::normal) enqueue(i, bytes_of(now, semantic), stride, changes.normals);
+  }
   const Bytes indices = bytes_of(now.indices);
   enqueue(RangeUpdate::indices, indices, 4, changes.indices);
   for (const BufferRange& range : changes.rewired) enqueue(RangeUpdate::indices, indices, 4, range);

@@ -21,6 +21,7 @@ struct MeshBuffers {
   std::array<std::span<const Vec2f>, 2> texcoords;
   std::span<const Color16> colors;
   std::span<const uint32_t> indices;  ///< three a face
+  bool complete = false;              ///< everything has come, normals too
 };
 
 /// A mesh of any codec: returns updates for what has been decoded. Derived classes decode the blocks.
@@ -39,7 +40,7 @@ class MeshAsset : public AssetDecoder {
   bool complete() const final;
   std::optional<Update> announce() final;
   /// Returns all changes since the last batch, in pieces. Their order keeps the mesh drawable at every moment: new
-  /// vertices, new faces, older faces that may refer to the new vertices, and the draw count last.
+  /// vertices, final normals, new faces, older faces that may refer to the new vertices, and the draw count last.
   std::optional<Update> take(size_t budget) final;
   uint64_t decoded() const final { return buffers().faces; }
   uint64_t total() const final { return layout_.faces; }

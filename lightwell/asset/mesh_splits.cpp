@@ -19,7 +19,8 @@ class MeshSplits final : public MeshAsset {
             decoder_.normals(),
             {decoder_.texcoords(0), decoder_.texcoords(1)},
             decoder_.colors(),
-            decoder_.indices()};
+            decoder_.indices(),
+            decoder_.complete()};
   }
 
  protected:

@@ -16,6 +16,10 @@ class ModelWriter {
   uint32_t natural(AdaptiveNatural& model, uint32_t value) { return model.encode(encoder_, value), value; }
   int32_t integer(AdaptiveInteger& model, int32_t value) { return model.encode(encoder_, value), value; }
   int32_t residual(AdaptiveResidual& model, int32_t value) { return model.encode(encoder_, value), value; }
+  template <int Bits>
+  uint32_t symbol(AdaptiveSymbol<Bits>& model, uint32_t value) {
+    return model.encode(encoder_, value), value;
+  }
   /// The low `bits` bits of the value, without a model; bits <= 32.
   uint32_t raw(uint32_t value, int bits) { return encoder_.raw(value, bits), value; }
   /// Ends the stream and returns its bytes.
@@ -35,6 +39,10 @@ class ModelReader {
   uint32_t natural(AdaptiveNatural& model, uint32_t) { return model.decode(decoder_); }
   int32_t integer(AdaptiveInteger& model, int32_t) { return model.decode(decoder_); }
   int32_t residual(AdaptiveResidual& model, int32_t) { return model.decode(decoder_); }
+  template <int Bits>
+  uint32_t symbol(AdaptiveSymbol<Bits>& model, uint32_t) {
+    return model.decode(decoder_);
+  }
   uint32_t raw(uint32_t, int bits) { return decoder_.raw(bits); }
   /// True when the payload was too short for what has been read.
   bool overrun() const { return decoder_.overrun(); }

@@ -13,7 +13,7 @@ constexpr uint32_t none = 0xffffffffu;
 // edges where texture or colour tears.
 constexpr float border_weight = 3, tear_weight = 1;
 // Share of the squared edge length in the cost, so that of equal edges the shorter one goes first.
-constexpr float length_weight = 1e-3f;
+constexpr float length_weight = 1e-2f;
 // Squared error of attributes torn as far as possible, as a share of the squared length over which they smear.
 constexpr float tear_share = 1.0f / 16;
 // Least cosine between a face's normals before and after a collapse.

@@ -73,6 +73,11 @@ void order_faces(const QuantizedMesh& mesh, const CollapseOrder& order, const st
     if (when < loose_last) out.appears_with.push_back(static_cast<uint32_t>(when));
     out.mesh.faces.push_back({number[face[0]], number[face[1]], number[face[2]]});
   }
+  // Loose faces lie near others: they are told by their first corner, the least.
+  const auto loose = out.mesh.faces.end() - static_cast<ptrdiff_t>(out.loose_faces);
+  std::for_each(loose, out.mesh.faces.end(),
+                [](Face& face) { std::ranges::rotate(face, std::ranges::min_element(face)); });
+  std::sort(loose, out.mesh.faces.end());
 }
 
 }  // namespace

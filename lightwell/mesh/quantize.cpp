@@ -41,9 +41,11 @@ Lattice lattice_for(int wanted, const Extent& extent) {
 }
 
 Lattice position_lattice(const Extent& extent, const QuantizeOptions& options) {
-  const double standard = extent.side / ((1 << default_bits) - 1), coarsest = extent.side / (1 << least_bits);
-  const double step = options.position_error > 0 ? std::min(2.0 * options.position_error, coarsest) : standard;
-  return lattice_for(step > 0 ? std::ilogb(step) : Lattice::min_exponent, extent);
+  if (!(extent.side > 0)) return lattice_for(Lattice::min_exponent, extent);
+  if (options.position_error > 0)
+    return lattice_for(std::ilogb(std::min(2.0 * options.position_error, extent.side / (1 << least_bits))), extent);
+  // The finest step of which the longest side has no more than the codes of 14 bits.
+  return lattice_for(std::ilogb(extent.side / ((1 << default_bits) - 1)) + 1, extent);
 }
 
 // The lowest 21 bits of x with two zeros between neighbours.

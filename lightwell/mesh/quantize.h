@@ -12,9 +12,9 @@
 namespace lightwell {
 
 struct QuantizeOptions {
-  /// Largest deviation of a coordinate, in the mesh's units. 0: 14 bits for the longest side of the bounding box. At
-  /// least 6 bits are used, so that a mesh smaller than the deviation keeps its form; at most 21, and no more than the
-  /// floats of the input hold.
+  /// Largest deviation of a coordinate, in the mesh's units. 0: codes of 14 bits for the longest side of the bounding
+  /// box, which deviate by at most a 16,384th of it. At least 6 bits are used, so that a mesh smaller than the
+  /// deviation keeps its form; at most 21, and no more than the floats of the input hold.
   float position_error = 0;
 };
 

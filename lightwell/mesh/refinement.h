@@ -29,7 +29,7 @@ struct NewVertex {
   std::vector<uint8_t> moves;  ///< of each face of the fan: whether it moves to the new vertex
   std::vector<NewFace> faces;
   Vec3i position;
-  NormalCode normal;
+  NormalCode normal;  ///< of the level to which it is added
   std::array<Vec<int, 2>, 2> texcoords;
   ColorCode color{};
 };
@@ -52,13 +52,25 @@ class Refinement {
   /// so far.
   void gather_fan(uint32_t vertex, std::vector<Spoke>& fan) const;
 
-  Vec3i position(uint32_t vertex) const;
+  Vec3i position(uint32_t vertex) const {
+    const Vec3f& p = position_buffer[vertex];
+    const auto code = [&](float value) { return static_cast<int32_t>(value * steps_per_unit_); };
+    return {{code(p[0]), code(p[1]), code(p[2])}};
+  }
   Vec<int, 2> texcoord(int set, uint32_t vertex) const;
   ColorCode color(uint32_t vertex) const;
+
+  /// Of each vertex the sum of its faces' area normals, modulo 2^64.
+  std::vector<Vec<uint64_t, 3>> area_normals() const;
 
   /// Adds a vertex and rewires its faces. Its parent, its fan and the other corners of its new faces must be those of
   /// this mesh.
   void add(const NewVertex& vertex, bool begins_point);
+  /// The vertices whose normals are those of the final level: the coarsest level's, and those after it that
+  /// set_next_normal() was called for, in order.
+  uint32_t final_normals() const { return final_normals_; }
+  /// Gives the next of them its normal of the final level.
+  void set_next_normal(NormalCode normal);
   /// Adds a face that no split will ever touch. add() must not be called after it.
   void add_loose(const Face& face);
 
@@ -71,7 +83,8 @@ class Refinement {
   MeshChanges take_changes();
 
  private:
-  explicit Refinement(const MeshLayout& layout) : layout_(layout) {}
+  explicit Refinement(const MeshLayout& layout)
+      : layout_(layout), steps_per_unit_(power_of_two(-layout.positions.exponent)) {}
   void add_base(const MeshArrays& base);
   void reserve_vertices(size_t count);
   void reserve_faces(size_t count);
@@ -80,11 +93,13 @@ class Refinement {
   void link(uint32_t corner);
 
   MeshLayout layout_;
+  float steps_per_unit_;  // of positions, exactly
   std::vector<uint32_t> first_of_point_;
   // Linked lists of the corners at each vertex; a corner is a place in the index buffer.
   std::vector<uint32_t> first_corner_, next_corner_, fan_size_;
   // The counts that take_changes() has reported, and the reported places that have been rewired since.
   uint32_t reported_vertices_ = 0, reported_faces_ = 0;
+  uint32_t final_normals_ = 0, reported_normals_ = 0;
   std::vector<uint32_t> rewired_;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightwell/base/model_coder.h"
+#include "lightwell/mesh/fan_coder.h"
 #include "lightwell/mesh/refinement.h"
 
 namespace lightwell {
@@ -19,21 +20,24 @@ class SplitCoder {
   uint32_t count(Coder& coder, uint32_t value) {
     return coder.natural(count_, value);
   }
-  /// Whether the current point splits (again).
+  /// A pass over the vertices present begins: none has new neighbours yet.
+  void begin_pass(const Refinement& mesh) { new_neighbours_.assign(mesh.vertices(), 0); }
+  /// Whether the point of this first vertex splits (again). It does so the less the more its neighbours have split
+  /// before it in this pass.
   template <typename Coder>
-  bool splits(Coder& coder, uint32_t fan_size, bool again, bool value) {
-    return coder.bit(splits_[again][std::min<size_t>(fan_size, 15)], value);
+  bool splits(Coder& coder, const Refinement& mesh, uint32_t vertex, bool again, bool value) {
+    return coder.bit(splits_[again][std::min<size_t>(mesh.fan_size(vertex), 11)][new_neighbours_[vertex]], value);
   }
+  /// The vertex is there: its neighbours have a new one.
+  void note(const NewVertex& v);
   /// Whether one more vertex comes with the new point; `parents` is the number of vertices of its parent point.
   template <typename Coder>
   bool one_more(Coder& coder, uint32_t parents, bool value) {
     return coder.bit(one_more_[parents > 1], value);
   }
-  /// The index of an existing vertex.
+  /// A face of existing vertices that takes no part in the refinement: mostly one with two corners at one place.
   template <typename Coder>
-  uint32_t vertex(Coder& coder, const Refinement& mesh, uint32_t value) {
-    return coder.raw(value, std::bit_width(mesh.vertices()));
-  }
+  bool loose_face(Coder& coder, const Refinement& mesh, Face& face);
   /// A new vertex whose parent is one of `parent_point`. Its position is coded if it begins a point, otherwise given in
   /// v. False if no encoder writes such a stream.
   template <typename Coder>
@@ -46,26 +50,24 @@ class SplitCoder {
     uint8_t moving = 0, staying = 0;
     bool before_parent = false;  // in the new face between moving and staying ones
   };
-  // The new vertex's neighbours: their mean, half their mean squared distance from the parent, and their (scaled) area
-  // normal.
+  // The new vertex's neighbours: their mean, that of those which are its parent's too, half their mean squared distance
+  // from the parent, and their (scaled) area normal.
   struct Surroundings {
-    Vec<int64_t, 3> mean;
+    Vec<int64_t, 3> mean, shared;
     int64_t spread = 0;
     Vec<int64_t, 3> normal;
   };
 
   template <typename Coder>
-  void moves(Coder& coder, NewVertex& v);
-  template <typename Coder>
   bool faces(Coder& coder, const Refinement& mesh, NewVertex& v);
   template <typename Coder>
   void implied_faces(Coder& coder, NewVertex& v);
   template <typename Coder>
+  bool vertex(Coder& coder, const Refinement& mesh, AdaptiveNatural& model, uint32_t& value);
+  template <typename Coder>
   bool explicit_faces(Coder& coder, const Refinement& mesh, NewVertex& v);
   template <typename Coder>
   bool position(Coder& coder, const Refinement& mesh, const Surroundings& around, NewVertex& v);
-  template <typename Coder>
-  bool normal(Coder& coder, const Refinement& mesh, NewVertex& v);
   template <typename Coder>
   bool texcoord(Coder& coder, const Refinement& mesh, int set, NewVertex& v);
   template <typename Coder>
@@ -75,20 +77,22 @@ class SplitCoder {
   bool are_implied(const NewVertex& v) const;
   static Surroundings surroundings(const Refinement& mesh, const NewVertex& v);
 
-  AdaptiveNatural count_, parent_in_point_, explicit_count_;
-  std::array<std::array<AdaptiveBit, 16>, 2> splits_;
+  AdaptiveNatural count_, parent_in_point_, explicit_count_, explicit_corner_, loose_first_, loose_corner_;
+  std::array<std::array<std::array<AdaptiveBit, 4>, 12>, 2> splits_;
   std::array<AdaptiveBit, 2> one_more_;
-  std::array<std::array<std::array<std::array<AdaptiveBit, 2>, 4>, 4>, 16> moves_;
+  FanCoder fan_;
   AdaptiveBit explicit_;
   std::array<std::array<AdaptiveBit, 3>, 3> has_face_, turned_;
   std::array<AdaptiveInteger, 54> tangential_, along_normal_;
-  std::array<AdaptiveInteger, 12> normal_;
   std::array<AdaptiveInteger, 24> texcoord_;
   AdaptiveInteger color_;
-  uint32_t recent_normal_error_ = 16;
 
+  std::vector<uint8_t> new_neighbours_;  // of each vertex in this pass, at most 3
   std::vector<RingVertex> ring_;
   std::vector<NewFace> coded_;
+  std::vector<Spoke> loose_fan_;
+  std::vector<uint32_t> near_;  // vertices that corners are probably among
+  uint32_t last_loose_ = 0;
 };
 
 // Calls use(a, b) for the other two corners of each face that the new vertex will have.
@@ -109,29 +113,23 @@ bool SplitCoder::new_vertex(Coder& coder, const Refinement& mesh, uint32_t paren
   if (mesh.fan_size(v.parent) > max_fan) return false;
   mesh.gather_fan(v.parent, v.fan);
   if (!Coder::writes) v.moves.resize(v.fan.size());
-  moves(coder, v);
+  if (!fan_.moves(coder, mesh, v)) return false;
   if (!faces(coder, mesh, v)) return false;
-  if (begins_point && !position(coder, mesh, surroundings(mesh, v), v)) return false;
-  if (mesh.layout().has_normals && !normal(coder, mesh, v)) return false;
+  const Surroundings around = surroundings(mesh, v);
+  if (begins_point && !position(coder, mesh, around, v)) return false;
+  // The area normal of a closed ring does not depend on where in it the vertex is.
+  if (mesh.layout().has_normals) v.normal = normal_code(around.normal);
   for (int set = 0; set < 2; set++)
     if (mesh.layout().has_texcoords[static_cast<size_t>(set)] && !texcoord(coder, mesh, set, v)) return false;
   if (mesh.layout().has_colors) color(coder, mesh, v);
   return true;
 }
 
-// The moving faces are mostly one run of the fan: the model sees the fan's size, how often moving has begun or ended,
-// and the length of the current run.
-template <typename Coder>
-void SplitCoder::moves(Coder& coder, NewVertex& v) {
-  size_t changes = 0, run = 0;
-  bool last = false;
-  for (uint8_t& move : v.moves) {
-    const bool now = coder.bit(moves_[std::min<size_t>(v.fan.size(), 15)][changes][run][last], move != 0);
-    run = now == last ? std::min<size_t>(run + 1, 3) : 0;
-    if (now != last) changes = std::min<size_t>(changes + 1, 3);
-    last = now;
-    move = now;
-  }
+inline void SplitCoder::note(const NewVertex& v) {
+  for_each_face(v, [&](uint32_t a, uint32_t b) {
+    for (const uint32_t x : {a, b})
+      if (x != v.parent && x < new_neighbours_.size() && new_neighbours_[x] < 3) new_neighbours_[x]++;
+  });
 }
 
 // New faces are mostly where a moving face parts from a staying one: they join the new vertex, the parent and the
@@ -160,21 +158,52 @@ void SplitCoder::implied_faces(Coder& coder, NewVertex& v) {
   std::swap(v.faces, coded_);
 }
 
+// The index of an existing vertex: its place among those near, counted from 1, or 0 and the index itself.
+template <typename Coder>
+bool SplitCoder::vertex(Coder& coder, const Refinement& mesh, AdaptiveNatural& model, uint32_t& value) {
+  const auto known = Coder::writes ? std::ranges::find(near_, value) : near_.end();
+  const uint32_t place =
+      coder.natural(model, known == near_.end() ? 0 : static_cast<uint32_t>(known - near_.begin()) + 1);
+  if (place > near_.size()) return false;
+  value = place > 0 ? near_[place - 1] : coder.raw(value, std::bit_width(mesh.vertices()));
+  return value < mesh.vertices();
+}
+
 template <typename Coder>
 bool SplitCoder::explicit_faces(Coder& coder, const Refinement& mesh, NewVertex& v) {
   const uint32_t count = coder.natural(explicit_count_, static_cast<uint32_t>(v.faces.size()));
   if (count > max_fan) return false;
   v.faces.resize(count);
-  for (NewFace& face : v.faces) {
-    face.a = vertex(coder, mesh, face.a);
-    face.b = vertex(coder, mesh, face.b);
-    if (face.a >= mesh.vertices() || face.b >= mesh.vertices()) return false;
-  }
+  near_.assign(1, v.parent);
+  for (const RingVertex& x : ring_) near_.push_back(x.vertex);
+  for (NewFace& face : v.faces)
+    for (uint32_t* corner : {&face.a, &face.b})
+      if (!vertex(coder, mesh, explicit_corner_, *corner)) return false;
   return true;
 }
 
-// The position is predicted from the new vertex's neighbours. The residual is coded along two axes across the surface
-// and, on the third, as the height over the plane of the neighbours: a shear, hence exact in integers.
+// Loose faces come by their first corner, which is no later than the others.
+template <typename Coder>
+bool SplitCoder::loose_face(Coder& coder, const Refinement& mesh, Face& face) {
+  const uint32_t step = coder.natural(loose_first_, face[0] - last_loose_);
+  if (step >= mesh.vertices() - last_loose_) return false;
+  face[0] = last_loose_ += step;
+  near_.assign(1, face[0]);
+  if (mesh.fan_size(face[0]) <= max_fan) {
+    mesh.gather_fan(face[0], loose_fan_);
+    for (const Spoke& spoke : loose_fan_)
+      for (const uint32_t x : {spoke.a, spoke.b})
+        if (std::ranges::find(near_, x) == near_.end()) near_.push_back(x);
+  }
+  if (!vertex(coder, mesh, loose_corner_, face[1])) return false;
+  near_[0] = face[1];
+  return vertex(coder, mesh, loose_corner_, face[2]);
+}
+
+// The position is predicted from the new vertex's neighbours: their mean, drawn towards the parent and away from the
+// neighbours that both have, by shares that regression found on scans of all kinds. The residual is coded along two
+// axes across the surface and, on the third, as the height over the plane of the neighbours: a shear, hence exact in
+// integers.
 template <typename Coder>
 bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundings& around, NewVertex& v) {
   const Vec3i parent = mesh.position(v.parent);
@@ -185,7 +214,8 @@ bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundin
   int64_t height = 0;  // of the plane at the residual, times -normal[up]
   for (int i = 1; i <= 3; i++) {
     const int axis = (up + i) % 3;
-    int64_t predicted = around.mean[axis] + (parent[axis] - around.mean[axis]) / 4;
+    int64_t predicted = around.mean[axis] +
+                        (8 * (parent[axis] - around.mean[axis]) - 3 * (around.shared[axis] - around.mean[axis])) / 32;
     if (axis == up && around.normal[up] != 0) predicted -= height / around.normal[up];
     AdaptiveInteger& model = axis == up ? along_normal_[scale] : tangential_[scale];
     const int64_t residual = coder.integer(model, static_cast<int32_t>(v.position[axis] - predicted));
@@ -193,23 +223,6 @@ bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundin
     v.position[axis] = static_cast<int>(predicted + residual);
     height += around.normal[axis] * residual;
   }
-  return true;
-}
-
-// The normal is predicted from the vertex's faces; the model depends on how good recent predictions were.
-template <typename Coder>
-bool SplitCoder::normal(Coder& coder, const Refinement& mesh, NewVertex& v) {
-  Vec<int64_t, 3> area;
-  for_each_face(v, [&](uint32_t a, uint32_t b) {
-    area += cross((mesh.position(a) - v.position).cast<int64_t>(), (mesh.position(b) - v.position).cast<int64_t>());
-  });
-  const NormalCode predicted = normal_code(area);
-  AdaptiveInteger& model = normal_[std::min<size_t>(std::bit_width(recent_normal_error_), normal_.size() - 1)];
-  const int64_t du = coder.integer(model, v.normal.u - predicted.u),
-                dv = coder.integer(model, v.normal.v - predicted.v);
-  if (std::abs(predicted.u + du) > 511 || std::abs(predicted.v + dv) > 511) return false;
-  v.normal = {static_cast<int16_t>(predicted.u + du), static_cast<int16_t>(predicted.v + dv)};
-  recent_normal_error_ = (recent_normal_error_ * 7 + static_cast<uint32_t>(std::abs(du) + std::abs(dv)) * 4) / 8;
   return true;
 }
 
@@ -261,7 +274,9 @@ inline void SplitCoder::gather_ring(const NewVertex& v) {
   ring_.clear();
   for (size_t i = 0; i < v.fan.size(); i++)
     for (const uint32_t x : {v.fan[i].a, v.fan[i].b}) {
-      auto known = std::find_if(ring_.begin(), ring_.end(), [&](const RingVertex& r) { return r.vertex == x; });
+      // Mostly the last one, else the first.
+      const auto is_x = [&](const RingVertex& r) { return r.vertex == x; };
+      auto known = !ring_.empty() && is_x(ring_.back()) ? ring_.end() - 1 : std::ranges::find_if(ring_, is_x);
       if (known == ring_.end()) known = ring_.insert(ring_.end(), {x, 0, 0, false});
       uint8_t& count = v.moves[i] ? known->moving : known->staying;
       // A new face continues the order of the moving face or, without one, of the staying face across the gap.
@@ -288,17 +303,21 @@ inline bool SplitCoder::are_implied(const NewVertex& v) const {
 inline SplitCoder::Surroundings SplitCoder::surroundings(const Refinement& mesh, const NewVertex& v) {
   Surroundings around;
   const Vec<int64_t, 3> parent = mesh.position(v.parent).cast<int64_t>();
-  Vec<int64_t, 3> sum;
-  int64_t count = 0;
+  Vec<int64_t, 3> sum, sum_of_shared;
+  int64_t count = 0, shared = 0;
   for_each_face(v, [&](uint32_t a, uint32_t b) {
     const Vec<int64_t, 3> p = mesh.position(a).cast<int64_t>() - parent, q = mesh.position(b).cast<int64_t>() - parent;
     sum += p + q;
     around.spread += dot(p, p) / 2 + dot(q, q) / 2;
     around.normal += cross(p, q);
     count += 2;
+    if ((a == v.parent) == (b == v.parent)) return;
+    sum_of_shared += p + q;  // the parent's own is zero
+    shared++;
   });
-  if (count == 0) return {parent, 0, {}};
+  if (count == 0) return {parent, parent, 0, {}};
   around.mean = parent + sum / count;
+  around.shared = shared > 0 ? parent + sum_of_shared / shared : around.mean;
   around.spread /= count;
   uint64_t largest = 0;
   for (int i = 0; i < 3; i++) largest = std::max(largest, static_cast<uint64_t>(std::abs(around.normal[i])));

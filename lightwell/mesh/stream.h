@@ -17,10 +17,11 @@ namespace lightwell {
 struct ProgressiveMesh;
 
 /// The codec number of this header's format: the vertex splits of a progressive mesh (H. Hoppe, "Progressive Meshes",
-/// SIGGRAPH 1996, sections 3.1 and 3.3), ordered by the points that they split, after a coarsest level.
-inline constexpr uint8_t mesh_codec_splits = 0;
+/// SIGGRAPH 1996, sections 3.1 and 3.3), ordered by the points that they split, after a coarsest level; then the
+/// normals. Codec 0, of older packs, had these with the splits.
+inline constexpr uint8_t mesh_codec_splits = 1;
 
-/// The most vertices and faces that a byte of a payload may add. It bounds a decoder's memory, 64 bytes a vertex and 24
+/// The most vertices and faces that a byte of a payload may add. It bounds a decoder's memory, 88 bytes a vertex and 24
 /// a face, by the bytes that have arrived. Encoders pad shorter payloads; a flat grid of squares has 2.5, scans have
 /// 0.5.
 inline constexpr uint32_t elements_per_byte = 4;
@@ -59,7 +60,8 @@ struct EncodedMesh {
   std::vector<MeshBlock> blocks;
 };
 
-/// Encodes a progressive mesh as layout, base and blocks of about `block_vertices` new vertices.
+/// Encodes a progressive mesh as layout, base and blocks of about `block_vertices` new vertices, then of so many
+/// normals.
 EncodedMesh encode(const ProgressiveMesh& mesh, uint32_t block_vertices = 1024);
 
 using Normal16 = std::array<int16_t, 4>;
@@ -82,6 +84,7 @@ struct BufferRange {
 /// What has changed in a decoder's buffers.
 struct MeshChanges {
   BufferRange vertices;              ///< new ones
+  BufferRange normals;               ///< of vertices, older ones too, that now are those of the final level
   BufferRange indices;               ///< those of new faces
   std::vector<BufferRange> rewired;  ///< indices of older faces; ascending, gaps of up to 256 indices included
 };
@@ -106,11 +109,13 @@ class MeshDecoder {
   const MeshLayout& layout() const;
   uint32_t vertices() const;  ///< decoded so far
   uint32_t faces() const;
-  bool complete() const;  ///< the final level is reached
+  bool complete() const;  ///< the final level is reached, normals and all
 
   /// The buffers: vertices() elements, and three indices for each of faces(). append() may move them.
   std::span<const Vec3f> positions() const;
-  std::span<const Normal16> normals() const;  ///< signed normalised x, y, z and 0; empty without normals
+  /// Signed normalised x, y, z and 0; empty without normals. Those of the faces that a vertex came with until its own
+  /// have come, after all faces.
+  std::span<const Normal16> normals() const;
   std::span<const Vec2f> texcoords(int set) const;
   std::span<const Color16> colors() const;
   std::span<const uint32_t> indices() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include "lightwell/mesh/normal_coder.h"
 #include "lightwell/mesh/refinement.h"
 #include "lightwell/mesh/split_coder.h"
 #include "lightwell/mesh/stream.h"
@@ -65,12 +66,17 @@ struct MeshDecoder::State {
   Result<void> add_point(ModelReader& reader);
   Result<void> add_vertex(ModelReader& reader, uint32_t parent_point, bool begins_point);
   Result<void> add_loose_face(ModelReader& reader);
+  Result<void> add_normal(ModelReader& reader);
+  bool has_all_faces() const {
+    return mesh.vertices() == mesh.layout().vertices && mesh.faces() == mesh.layout().faces;
+  }
   /// Deducts vertices and faces from payload_elements; fails when fewer are left.
   Result<void> spend(size_t elements);
 
   Refinement mesh;
   Sweep sweep;
   SplitCoder coder;
+  NormalCoder normals;
   uint32_t left_of_pass = 0;
   bool again = false;
   bool failed = false;
@@ -101,6 +107,8 @@ Result<void> MeshDecoder::State::decode(Bytes payload) {
   for (uint32_t i = 0; i < splits; i++) LW_CHECK(add_point(reader));
   const uint32_t loose = coder.count(reader, 0);
   for (uint32_t i = 0; i < loose; i++) LW_CHECK(add_loose_face(reader));
+  const uint32_t count = coder.count(reader, 0);
+  for (uint32_t i = 0; i < count; i++) LW_CHECK(add_normal(reader));
   if (reader.overrun()) return corrupt("too short");
   return {};
 }
@@ -110,10 +118,11 @@ Result<void> MeshDecoder::State::add_point(ModelReader& reader) {
     left_of_pass = coder.count(reader, 0);
     if (left_of_pass == 0 || mesh.points() == 0) return corrupt("an empty pass");
     sweep.begin_pass();
+    coder.begin_pass(mesh);
     again = false;
     if (sweep.work() > visits_per_point * mesh.points()) return corrupt("too many passes");
   }
-  while (!coder.splits(reader, mesh.fan_size(mesh.first_of_point(sweep.point())), again, false)) {
+  while (!coder.splits(reader, mesh, mesh.first_of_point(sweep.point()), again, false)) {
     again = false;
     if (!sweep.advance()) return corrupt("a pass with too few splits");
   }
@@ -132,28 +141,35 @@ Result<void> MeshDecoder::State::add_point(ModelReader& reader) {
 
 Result<void> MeshDecoder::State::add_vertex(ModelReader& reader, uint32_t parent_point, bool begins_point) {
   const MeshLayout& layout = mesh.layout();
-  if (mesh.vertices() == layout.vertices) return corrupt("too many vertices");
-  if (!coder.new_vertex(reader, mesh, parent_point, begins_point, vertex)) return corrupt("an impossible split");
+  if (mesh.vertices() == layout.vertices || !coder.new_vertex(reader, mesh, parent_point, begins_point, vertex))
+    return corrupt("an impossible split");
   if (reader.overrun()) return corrupt("too short");
   if (vertex.faces.size() > layout.faces - layout.loose_faces - mesh.faces()) return corrupt("too many faces");
   LW_CHECK(spend(1 + vertex.faces.size()));
   mesh.add(vertex, begins_point);
+  coder.note(vertex);
   return {};
 }
 
 Result<void> MeshDecoder::State::add_loose_face(ModelReader& reader) {
   const MeshLayout& layout = mesh.layout();
-  if (mesh.vertices() < layout.vertices || mesh.faces() < layout.faces - layout.loose_faces)
-    return corrupt("a loose face before the others");
-  if (mesh.faces() == layout.faces) return corrupt("too many loose faces");
-  Face face;
-  for (uint32_t& v : face) {
-    v = coder.vertex(reader, mesh, 0);
-    if (v >= mesh.vertices()) return corrupt("a corner out of range");
-  }
+  Face face{};
+  if (mesh.vertices() < layout.vertices || mesh.faces() < layout.faces - layout.loose_faces ||
+      mesh.faces() == layout.faces || !coder.loose_face(reader, mesh, face))
+    return corrupt("an impossible loose face");
   if (reader.overrun()) return corrupt("too short");
   LW_CHECK(spend(1));
   mesh.add_loose(face);
+  return {};
+}
+
+Result<void> MeshDecoder::State::add_normal(ModelReader& reader) {
+  NormalCode normal;
+  if (!has_all_faces() || !mesh.layout().has_normals || mesh.final_normals() == mesh.vertices() ||
+      !normals.normal(reader, mesh, mesh.final_normals(), normal))
+    return corrupt("an impossible normal");
+  if (reader.overrun()) return corrupt("too short");
+  mesh.set_next_normal(normal);
   return {};
 }
 
@@ -171,7 +187,9 @@ MeshDecoder::~MeshDecoder() = default;
 const MeshLayout& MeshDecoder::layout() const { return state_->mesh.layout(); }
 uint32_t MeshDecoder::vertices() const { return state_->mesh.vertices(); }
 uint32_t MeshDecoder::faces() const { return state_->mesh.faces(); }
-bool MeshDecoder::complete() const { return vertices() == layout().vertices && faces() == layout().faces; }
+bool MeshDecoder::complete() const {
+  return state_->has_all_faces() && (!layout().has_normals || state_->mesh.final_normals() == vertices());
+}
 std::span<const Vec3f> MeshDecoder::positions() const { return state_->mesh.position_buffer; }
 std::span<const Normal16> MeshDecoder::normals() const { return state_->mesh.normal_buffer; }
 std::span<const Vec2f> MeshDecoder::texcoords(int set) const {

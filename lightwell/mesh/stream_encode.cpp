@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "lightwell/base/assert.h"
+#include "lightwell/mesh/normal_coder.h"
 #include "lightwell/mesh/progressive.h"
 #include "lightwell/mesh/split_coder.h"
 #include "lightwell/mesh/stream.h"
@@ -79,27 +80,34 @@ class Encoder {
     for (uint32_t point = mesh_.base_points; point < points;) {
       uint32_t end = point + 1;
       while (end < points && mesh_.first_of_point[end] - mesh_.first_of_point[point] < block_vertices) end++;
-      add_block(point, end, 0);
+      add_block({.point = point, .end = end});
       point = end;
     }
-    for (uint32_t left = mesh_.loose_faces; left > 0;) {
-      const uint32_t count = std::min(left, block_vertices);
-      add_block(points, points, count);
-      left -= count;
-    }
+    for (uint32_t left = mesh_.loose_faces; left > 0; left -= std::min(left, block_vertices))
+      add_block({.point = points, .end = points, .loose = std::min(left, block_vertices)});
+    if (!out_.layout.has_normals) return std::move(out_);
+    for (uint32_t left = level_->vertices() - level_->final_normals(); left > 0; left -= std::min(left, block_vertices))
+      add_block({.point = points, .end = points, .normals = std::min(left, block_vertices)});
     return std::move(out_);
   }
 
  private:
-  void add_block(uint32_t point, uint32_t end, uint32_t loose) {
+  /// What a block brings: the points up to `end`, faces, normals.
+  struct Share {
+    uint32_t point = 0, end = 0, loose = 0, normals = 0;
+  };
+
+  void add_block(const Share& share) {
     const uint32_t vertices = level_->vertices(), faces = level_->faces();
     ModelWriter writer;
-    coder_.count(writer, end - point);
-    for (uint32_t i = point; i < end; i++) add_point(writer, i);
-    coder_.count(writer, loose);
-    for (uint32_t i = 0; i < loose; i++) add_loose_face(writer);
+    coder_.count(writer, share.end - share.point);
+    for (uint32_t i = share.point; i < share.end; i++) add_point(writer, i);
+    coder_.count(writer, share.loose);
+    for (uint32_t i = 0; i < share.loose; i++) add_loose_face(writer);
+    coder_.count(writer, share.normals);
+    for (uint32_t i = 0; i < share.normals; i++) add_normal(writer);
 
-    MeshBlock block{writer.finish(), level_->vertices() - vertices, error_before(end)};
+    MeshBlock block{writer.finish(), level_->vertices() - vertices, error_before(share.end)};
     const uint32_t elements = block.vertices + level_->faces() - faces;
     block.payload.resize(
         std::max<size_t>(block.payload.size(), (elements + elements_per_byte - 1) / elements_per_byte));
@@ -110,13 +118,14 @@ class Encoder {
     if (pass_ == 0 || point == mesh_.passes[pass_ - 1].point_end) {
       coder_.count(writer, mesh_.passes[pass_++].point_end - point);
       sweep_.begin_pass();
+      coder_.begin_pass(*level_);
       again_ = false;
     }
     const uint32_t first = mesh_.first_of_point[point], end = mesh_.first_of_point[point + 1];
     const uint32_t parent = mesh_.point_of(mesh_.parent[first]);
     while (true) {
       const bool here = sweep_.point() == parent;
-      coder_.splits(writer, level_->fan_size(level_->first_of_point(sweep_.point())), again_, here);
+      coder_.splits(writer, *level_, level_->first_of_point(sweep_.point()), again_, here);
       again_ = here;
       if (here) break;
       const bool more = sweep_.advance();
@@ -141,6 +150,7 @@ class Encoder {
     const bool coded = coder_.new_vertex(writer, *level_, parent_point, begins_point, vertex);
     LW_ASSERT(coded);
     level_->add(vertex, begins_point);
+    coder_.note(vertex);
     for (const NewFace& face : vertex.faces)
       for (uint32_t k = 0; k < 3; k++) finals_.push_back(final_corner(face.source, k));
   }
@@ -160,16 +170,24 @@ class Encoder {
   void set_attributes(NewVertex& vertex, uint32_t v) const {
     const QuantizedMesh& codes = mesh_.mesh;
     vertex.position = codes.positions[v];
-    if (!codes.normals.empty()) vertex.normal = codes.normals[v];
     for (size_t set = 0; set < 2; set++)
       if (!codes.texcoords[set].empty()) vertex.texcoords[set] = codes.texcoords[set][v];
     if (!codes.colors.empty()) vertex.color = codes.colors[v];
   }
 
   void add_loose_face(ModelWriter& writer) {
-    const Face& face = mesh_.mesh.faces[next_face_++];
-    for (const uint32_t v : face) coder_.vertex(writer, *level_, v);
+    Face face = mesh_.mesh.faces[next_face_++];
+    const bool coded = coder_.loose_face(writer, *level_, face);
+    LW_ASSERT(coded);
     level_->add_loose(face);
+  }
+
+  void add_normal(ModelWriter& writer) {
+    const uint32_t v = level_->final_normals();
+    NormalCode normal = mesh_.mesh.normals[v];
+    const bool coded = normals_.normal(writer, *level_, v, normal);
+    LW_ASSERT(coded);
+    level_->set_next_normal(normal);
   }
 
   // The error of the level that ends before a point.
@@ -185,6 +203,7 @@ class Encoder {
   std::optional<Refinement> level_;
   Sweep sweep_;
   SplitCoder coder_;
+  NormalCoder normals_;
   size_t pass_ = 0;
   bool again_ = false;
   uint32_t next_face_;

@@ -18,6 +18,7 @@ namespace lightwell {
 namespace {
 
 bool fine_enough(const MeshAsset& mesh, float error, const MeshLevel& level) {
+  if (level.share >= 1 && level.error < 0) return mesh.complete();
   const auto wanted = static_cast<double>(level.share) * mesh.layout().faces;
   return mesh.complete() || (mesh.buffers().faces >= wanted && (level.error < 0 || error <= level.error));
 }

@@ -8,6 +8,7 @@
 
 #include "lightwell/asset/update.h"
 #include "lightwell/base/bytes.h"
+#include "lightwell/mesh/stream.h"
 
 namespace lightwell {
 
@@ -17,8 +18,9 @@ struct OnTheWay {
     uint32_t vertices = 0;
     std::vector<uint32_t> indices;  ///< three a face
   };
-  std::map<uint32_t, std::vector<Level>> levels;  ///< of each mesh, coarse to fine: after any number of blocks
-  std::vector<std::vector<uint8_t>> atlases;      ///< after any number of blocks, filled in any way
+  std::map<uint32_t, std::vector<Level>> levels;      ///< of each mesh, coarse to fine: after any number of blocks
+  std::map<uint32_t, std::vector<Normal16>> normals;  ///< of each vertex of a mesh until its own has come
+  std::vector<std::vector<uint8_t>> atlases;          ///< after any number of blocks, filled in any way
 };
 
 /// What a viewer would hold: the buffers that updates make up.

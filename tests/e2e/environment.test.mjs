@@ -108,7 +108,7 @@ test('what a page has put around the scene stays', async (t) => {
   const { page } = await open(t, 'environment-background="none"');
   const kept = await page.evaluate(() => {
     const view = document.querySelector('lightwell-view');
-    const own = view.pack.environment.clone();
+    const own = view.pack.environment.texture.clone();
     view.scene.background = own;
     view.setAttribute('environment-background', 'sharp');
     return view.scene.background === own;

@@ -35,6 +35,11 @@ MeshDecoder open(const EncodedMesh& encoded) {
   return std::move(*decoder);
 }
 
+Mesh without_normals(Mesh mesh) {
+  mesh.normals.clear();
+  return mesh;
+}
+
 // Every index that is drawn names a vertex that is there.
 void expect_drawable(const MeshDecoder& decoder) {
   ASSERT_EQ(decoder.positions().size(), decoder.vertices());
@@ -69,12 +74,53 @@ TEST(MeshStream, EveryLevelIsTheFinalOneSeenThroughItsAncestors) {
       EXPECT_LE(block.error, error);
       error = block.error;
       expect_drawable(decoder);
-      if (!decoder.complete() && decoder.vertices() == decoder.layout().vertices) continue;  // loose faces are arriving
+      // Loose faces, and before them normals, come when all vertices are there.
+      if (decoder.faces() != decoder.layout().faces && decoder.vertices() == decoder.layout().vertices) continue;
       const Mesh level = level_of(stream.progressive, decoder.vertices());
-      ASSERT_EQ(faces_of(shown(decoder)), faces_of(with_normals_in_16_bits(level)));
+      ASSERT_EQ(faces_of(without_normals(shown(decoder))), faces_of(without_normals(level)));
     }
     EXPECT_EQ(error, 0);
   }
+}
+
+// Until its own comes, a vertex has the normal of the faces that it came with; then that of the input, in order.
+TEST(MeshStream, NormalsComeAfterTheFaces) {
+  const Stream stream = stream_of(knot(60, 20), 50, 100);
+  const Mesh input = with_normals_in_16_bits(dequantize(stream.progressive.mesh));
+  MeshDecoder decoder = open(stream.encoded);
+  uint32_t exact = decoder.vertices();
+  std::vector<Normal16> copy;
+  const auto follow = [&] {
+    const MeshChanges changes = decoder.take_changes();
+    copy.resize(decoder.vertices());
+    uint32_t near = 0;
+    for (const BufferRange& range : {changes.vertices, changes.normals})
+      for (uint32_t v = range.first; v < range.first + range.count; v++) copy[v] = decoder.normals()[v];
+    EXPECT_TRUE(std::ranges::equal(copy, decoder.normals()));
+    EXPECT_EQ(changes.normals.first, exact);
+    exact += changes.normals.count;
+    for (uint32_t v = 0; v < decoder.vertices(); v++) {
+      const Normal16& n = decoder.normals()[v];
+      const Vec3f shown{{float(n[0]), float(n[1]), float(n[2])}};
+      if (v < exact) {
+        ASSERT_EQ(shown, input.normals[v]);
+      }
+      near += dot(shown, input.normals[v]) > 0.5f * 32767 * 32767;
+    }
+    // Of a bumpy knot's coarse levels most are within 60 degrees of the final ones.
+    EXPECT_GT(near, 0.8 * decoder.vertices());
+  };
+  follow();
+  for (const MeshBlock& block : stream.encoded.blocks) {
+    EXPECT_FALSE(decoder.complete());
+    ASSERT_TRUE(decoder.append(block.payload));
+    follow();
+    if (decoder.faces() < decoder.layout().faces) {
+      EXPECT_EQ(exact, stream.encoded.layout.base_vertices);
+    }
+  }
+  EXPECT_TRUE(decoder.complete());
+  EXPECT_EQ(exact, decoder.vertices());
 }
 
 // A soup of random edges is no surface: what is left of it is so dense that each further fan would be too large.
@@ -204,16 +250,19 @@ std::vector<uint8_t> likely_splits(const MeshLayout& layout, const MeshArrays& b
   coder.count(writer, splits);  // of the block
   coder.count(writer, splits);  // of the pass
   for (uint32_t i = 0; i < splits; i++) {
-    coder.splits(writer, mesh.fan_size(0), i > 0, true);
+    if (i == 0) coder.begin_pass(mesh);
+    coder.splits(writer, mesh, 0, i > 0, true);
     NewVertex vertex;
     mesh.gather_fan(0, vertex.fan);
     vertex.moves.assign(vertex.fan.size(), 0);
     vertex.position = mesh.position(0);
     EXPECT_TRUE(coder.new_vertex(writer, mesh, 0, true, vertex));
     mesh.add(vertex, true);
+    coder.note(vertex);
     coder.one_more(writer, 1, false);
   }
-  coder.count(writer, 0);
+  coder.count(writer, 0);  // loose faces
+  coder.count(writer, 0);  // normals
   return writer.finish();
 }
 

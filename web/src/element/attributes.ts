@@ -43,7 +43,6 @@ export const DRAWN_ATTRIBUTES = [
   'measure',
   'raking-light',
 ];
-export const BACKGROUNDS = ['sharp', 'blurred', 'none'] as const;
 export const LIGHTS = ['all', 'off', 'direct', 'indirect'] as const;
 export const LOOKUPS = ['trilinear', 'tricubic'] as const;
 export const SHADOWS = ['soft', 'hard', 'off'] as const;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { DirectionalLight, PerspectiveCamera, Scene, type Texture } from 'three';
+import { DirectionalLight, PerspectiveCamera, Scene } from 'three';
 import type { ConnectionEvent, Progress, Strategy } from '../core/protocol.js';
 import { LightwellLoader } from '../three/loader.js';
 import { messageOf, reasonOf } from '../three/pack_error.js';
 import type { LightwellScene } from '../three/scene.js';
-import { BACKGROUNDS, DRAWN_ATTRIBUTES, LIGHTS, LOOKUPS, parseQuantity, parseView, parseWord, SHADOWS, STRATEGIES, TONES } from './attributes.js';
+import { DRAWN_ATTRIBUTES, LIGHTS, LOOKUPS, parseQuantity, parseView, parseWord, SHADOWS, STRATEGIES, TONES } from './attributes.js';
 import { type ContextHolder, dropContext, serveContexts, wantContext } from './contexts.js';
 import type { LightwellViewDetails, Listens } from './events.js';
 import { cameraNamed, cameraNames } from './file_cameras.js';
@@ -20,8 +20,6 @@ const REPLACED_PAUSE = 1000;
 const LONGEST_REPLACED_PAUSE = 60_000;
 /** The stream is told the view once that has rested for so long, in milliseconds. */
 const VIEW_REST = 150;
-/** Of a blurred environment, as three.js counts: shapes are gone, colours left. */
-const BLUR = 0.3;
 
 /** The script of what few ask for, fetched for the first of them. */
 const extras = () => import('./extras.js');
@@ -61,8 +59,6 @@ export class LightwellView extends Base implements ContextHolder {
   #replacedPause = REPLACED_PAUSE;
   /** Of light groups. */
   readonly #factors = new Map<string, number | [number, number, number]>();
-  /** The picture that surrounds the scene, unless the page has put another there. */
-  #environment: Texture | null = null;
   #near = false;
   #paused = false;
   #complete = false;
@@ -292,7 +288,6 @@ export class LightwellView extends Base implements ContextHolder {
     this.#pack?.removeFromParent();
     this.#pack?.dispose();
     this.#pack = this.#progress = null;
-    this.#surround();
     this.#complete = this.#firstFrame = false;
     this.#overlay!.say('');
     this.#stage?.invalidate();
@@ -360,9 +355,8 @@ export class LightwellView extends Base implements ContextHolder {
       case 'exposure':
         return stage.setExposure(parseQuantity(value ?? '') ?? this.#pack?.exposure ?? 0);
       case 'environment-background':
-        return this.#surround();
       case 'light':
-        return this.#setLight(parseWord(value, LIGHTS));
+        return this.#setLight(parseWord(this.getAttribute('light'), LIGHTS));
       case 'shadows':
         return this.#pack?.setShadows(parseWord(value, SHADOWS));
       case 'tone':
@@ -393,27 +387,11 @@ export class LightwellView extends Base implements ContextHolder {
     this.#orbit!.save();
   }
 
-  /**
-   * Shows what surrounds the scene, and lets it be mirrored while the grid is there, which says how much of it is hidden. What the page has
-   * put around the scene by itself stays.
-   */
-  #surround(): void {
-    const { scene } = this;
-    const background = parseWord(this.getAttribute('environment-background'), BACKGROUNDS);
-    const [before, now] = [this.#environment, this.#pack?.environment ?? null];
-    this.#environment = now;
-    if (scene.environment === before || scene.environment === null) scene.environment = this.#pack?.grids[0]?.visible ? now : null;
-    if (scene.background === before || scene.background === null) {
-      scene.background = background === 'none' ? null : now;
-      scene.backgroundBlurriness = background === 'blurred' ? BLUR : 0;
-    }
-    this.#stage!.invalidate();
-  }
-
   #setLight(light: (typeof LIGHTS)[number]): void {
-    for (const grid of this.#pack?.grids ?? []) grid.visible = light === 'all' || light === 'indirect';
+    const baked = light === 'all' || light === 'indirect';
+    for (const grid of this.#pack?.grids ?? []) grid.visible = baked;
+    this.#pack?.environment?.putAround(this.scene, this.getAttribute('environment-background'), baked);
     for (const lamp of this.#pack?.lamps ?? []) lamp.visible = (light === 'all' || light === 'direct') && !this.hasAttribute('raking-light');
-    this.#surround();
     this.#stage!.invalidateShadows();
   }
 

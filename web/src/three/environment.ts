@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { DataTexture } from 'three';
+import type {
+  DataTexture,
+  EquirectangularReflectionMapping,
+  HalfFloatType,
+  LinearFilter,
+  RepeatWrapping,
+  Scene,
+  Texture,
+} from 'three';
+import type { GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import type { TextureEvent } from '../core/protocol.js';
-import type { EnvironmentDefinition } from './extensions.js';
+import type { EnvironmentDefinition, ProgressiveTextureExtension } from './extensions.js';
 import { toHalf } from './half.js';
-import type { Surroundings } from './opening.js';
 import type { Refinement } from './refinement.js';
 import type { UploadBudget } from './upload_budget.js';
 
-/** What is taken of three.js. */
-export type EnvironmentKit = Pick<
-  typeof import('three'),
-  'DataTexture' | 'EquirectangularReflectionMapping' | 'HalfFloatType' | 'LinearFilter' | 'RepeatWrapping'
->;
+// Of three.js, whose types say whether the numbers are right.
+const EQUIRECTANGULAR: typeof EquirectangularReflectionMapping = 303;
+const REPEAT: typeof RepeatWrapping = 1000;
+const LINEAR: typeof LinearFilter = 1006;
+const HALF_FLOAT: typeof HalfFloatType = 1016;
 
+/** How it is seen behind the scene. */
+export type Background = 'sharp' | 'blurred' | 'none';
+
+/** Of a blurred one, as three.js counts: shapes are gone, colours left. */
+const BLUR = 0.3;
 const CHANNELS = 4;
 const ONE = toHalf(1);
 
@@ -24,21 +37,49 @@ export class Environment implements Refinement {
   readonly texture: DataTexture;
   readonly #radianceOf: Uint16Array;
   readonly #canvas = document.createElement('canvas');
+  #scene: Scene | null = null;
   #image: ImageBitmap | null = null;
   #decoding = false;
   #bytes = 0;
   #consumed = 0;
 
-  constructor(kit: EnvironmentKit, { definition, preview, width, height }: Surroundings) {
+  private constructor(
+    Picture: typeof DataTexture,
+    definition: EnvironmentDefinition,
+    preview: ImageBitmap,
+    { width, height }: { width: number; height: number },
+    /** That the picture's stream has; none where all of it is in the opening. */
+    readonly asset: number | undefined,
+  ) {
     this.#radianceOf = halvesOf(definition);
     this.#canvas.width = width;
     this.#canvas.height = height;
-    this.texture = new kit.DataTexture(new Uint16Array(CHANNELS * width * height), width, height);
-    this.texture.type = kit.HalfFloatType;
-    this.texture.mapping = kit.EquirectangularReflectionMapping;
-    this.texture.wrapS = kit.RepeatWrapping;
-    this.texture.minFilter = this.texture.magFilter = kit.LinearFilter;
+    this.texture = new Picture(new Uint16Array(CHANNELS * width * height), width, height);
+    this.texture.type = HALF_FLOAT;
+    this.texture.mapping = EQUIRECTANGULAR;
+    this.texture.wrapS = REPEAT;
+    this.texture.minFilter = this.texture.magFilter = LINEAR;
     this.#show(preview);
+  }
+
+  /** Reads the preview, which the loader has not, since no material shows it. */
+  static async create(Picture: typeof DataTexture, definition: EnvironmentDefinition, parser: GLTFParser): Promise<Environment> {
+    const preview = ((await parser.getDependency('texture', definition.texture)) as Texture).image as ImageBitmap;
+    const { textures } = parser.json as { textures: { extensions?: Record<string, unknown> }[] };
+    const stated = textures[definition.texture]!.extensions?.['LIGHTWELL_progressive_texture'] as ProgressiveTextureExtension | undefined;
+    return new Environment(Picture, definition, preview, stated ?? preview, stated?.stream);
+  }
+
+  /**
+   * Shows it behind a scene, sharp by default, and lets the scene mirror it, which is right where the grid's light is seen: that says how
+   * much of it is hidden. What somebody else has put around the scene stays; dispose() takes away what was put.
+   */
+  putAround(scene: Scene, background: string | null, mirrored: boolean): void {
+    const { texture } = this;
+    this.#scene = scene;
+    scene.environment = replaced(scene.environment, texture, mirrored);
+    scene.background = replaced(scene.background, texture, background !== 'none');
+    if (scene.background === texture) scene.backgroundBlurriness = background === 'blurred' ? BLUR : 0;
   }
 
   get pending(): boolean {
@@ -81,6 +122,7 @@ export class Environment implements Refinement {
 
   dispose(): void {
     this.#image?.close();
+    if (this.#scene !== null) this.putAround(this.#scene, 'none', false);
     this.texture.dispose();
   }
 
@@ -102,6 +144,12 @@ export class Environment implements Refinement {
     this.texture.dispose();
     this.texture.needsUpdate = true;
   }
+}
+
+/** What stands in a place after this texture was put there, or taken away. */
+function replaced<Other>(before: Other | null, texture: DataTexture, present: boolean): Other | DataTexture | null {
+  if (before !== null && before !== (texture as unknown)) return before;
+  return present ? texture : null;
 }
 
 /** The radiance of each byte, as a half float. */

@@ -96,7 +96,7 @@ export class MeshRefinement implements Refinement {
       if (this.#step.length === 0) this.#beginStep();
       const whole = this.#step.length > 0;
       if (!this.#advanceVertices(whole ? this.#step : this.#batches, budget) || !whole) return false;
-      this.#beginSweep();
+      if (!this.#beginSweep()) return true;
     }
     if (!this.#index.advance(budget)) return false;
     this.geometry.setDrawRange(this.#index.start, 3 * this.#faces);
@@ -169,15 +169,17 @@ export class MeshRefinement implements Refinement {
     return true;
   }
 
-  /** Puts the step's faces into the hidden half of the indices. */
-  #beginSweep(): void {
+  /** Puts the step's faces into the hidden half of the indices; false when it brings nothing but normals. */
+  #beginSweep(): boolean {
+    const step = this.#step.splice(0);
+    if (step.every(({ ranges, faces }) => ranges.length === 0 && faces === this.#faces)) return false;
     this.#index.begin();
-    for (const { ranges, faces } of this.#step) {
+    for (const { ranges, faces } of step) {
       this.#faces = faces!;
       for (const { offset, data } of ranges)
         this.#index.write(offset / 4, new Uint32Array(data.buffer, data.byteOffset, data.length / 4));
     }
-    this.#step = [];
+    return true;
   }
 }
 

@@ -3,7 +3,6 @@ import { type BufferGeometry, type LoadingManager, Mesh, type Object3D, type Tex
 import { type GLTF, GLTFLoader, type GLTFParser } from 'three/addons/loaders/GLTFLoader.js';
 import {
   assetOf,
-  type EnvironmentDefinition,
   type PackExtensions,
   type ProgressiveMeshExtension,
   type ProgressiveTextureExtension,
@@ -26,24 +25,12 @@ export interface ProgressiveImage {
   previewSize: number;
 }
 
-/** The picture of what surrounds the scene. */
-export interface Surroundings {
-  definition: EnvironmentDefinition;
-  /** What the opening holds of it. */
-  preview: ImageBitmap;
-  /** Of the picture that the stream brings, pixels; without a stream of the preview. */
-  width: number;
-  height: number;
-  asset: number | null;
-}
-
 /** What three.js's own loader makes of a pack's opening, with what Lightwell's streams will refine. */
 export interface Opening {
   gltf: GLTF;
   extensions: PackExtensions;
   primitives: Map<number, ProgressivePrimitive>;
   images: Map<number, ProgressiveImage>;
-  surroundings: Surroundings | null;
   /** The meshes that show a primitive of a glTF node's own mesh. */
   meshesOf(node: number, primitive: number): Mesh[];
 }
@@ -65,28 +52,12 @@ export async function readOpening(glb: ArrayBuffer, manager: LoadingManager): Pr
     extensions: extensionsOf(gltf.parser),
     primitives: progressivePrimitives(gltf),
     images: progressiveImages(gltf),
-    surroundings: await surroundingsOf(gltf.parser),
     meshesOf: (node, primitive) => meshesOf(gltf, node, primitive),
   };
 }
 
 function extensionsOf(parser: GLTFParser): PackExtensions {
   return (parser.json as { extensions?: PackExtensions }).extensions ?? {};
-}
-
-/** No material shows the texture, so that the loader has not read it. */
-async function surroundingsOf(parser: GLTFParser): Promise<Surroundings | null> {
-  const definition = extensionsOf(parser).LIGHTWELL_environment;
-  if (definition === undefined) return null;
-  const preview = ((await parser.getDependency('texture', definition.texture)) as Texture).image as ImageBitmap;
-  const extension = streamOfTexture(parser, definition.texture);
-  const { width, height } = extension ?? preview;
-  return { definition, preview, width, height, asset: extension === undefined ? null : assetOf(extension) };
-}
-
-function streamOfTexture(parser: GLTFParser, texture: number): ProgressiveTextureExtension | undefined {
-  const { textures } = parser.json as { textures?: { extensions?: Record<string, unknown> }[] };
-  return textures?.[texture]?.extensions?.['LIGHTWELL_progressive_texture'] as ProgressiveTextureExtension | undefined;
 }
 
 /** A mesh belongs to the nearest node above it, or to the one that it is itself. */
@@ -118,10 +89,13 @@ function progressivePrimitives(gltf: GLTF): Map<number, ProgressivePrimitive> {
 }
 
 function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
+  const definitions = gltf.parser.json as { textures?: { extensions?: Record<string, unknown> }[] };
   const images = new Map<number, ProgressiveImage>();
   for (const [texture, meshes] of texturesOf(gltf.scene)) {
     const at = gltf.parser.associations.get(texture) as { textures?: number } | undefined;
-    const extension = streamOfTexture(gltf.parser, at?.textures ?? -1);
+    const extension = definitions.textures?.[at?.textures ?? -1]?.extensions?.['LIGHTWELL_progressive_texture'] as
+      | ProgressiveTextureExtension
+      | undefined;
     if (extension === undefined) continue;
     const known = images.get(assetOf(extension));
     const { width, height } = texture.image as ImageBitmap;

@@ -5,14 +5,9 @@ import {
   type Camera,
   DataTexture,
   DoubleSide,
-  EquirectangularReflectionMapping,
   Group,
-  HalfFloatType,
-  LinearFilter,
   type Material,
   type Object3DEventMap,
-  RepeatWrapping,
-  type Texture,
   Vector3,
   type WebGLRenderer,
 } from 'three';
@@ -74,9 +69,6 @@ export interface SceneOptions {
 /** As the baker has it. The memory for an image is taken before it comes, on the word of the pack. */
 const USUAL_MEGAPIXELS = 64;
 
-/** What the script of the environment takes of three.js, as DIRECT_KIT is for that of the lamps. */
-const ENVIRONMENT_KIT = { DataTexture, EquirectangularReflectionMapping, HalfFloatType, LinearFilter, RepeatWrapping };
-
 /** The images of materials, and of what surrounds the scene. */
 type Images = Map<number, TextureRefinement | Environment>;
 
@@ -94,10 +86,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** Stops of exposure that the baker chose. */
   readonly exposure: number;
   /**
-   * What surrounds the scene, where the pack has a picture of that: for `scene.environment`, which then is what metals and gloss
-   * mirror, as far as the baked light lets it, and for `scene.background`. It gets sharper in its place.
+   * What surrounds the scene, where the pack has a picture of that: its `texture` is for `scene.environment`, which then is what metals
+   * and gloss mirror, as far as the baked light lets it, and for `scene.background`. It gets sharper in its place.
    */
-  readonly environment: Texture | null;
+  readonly environment: Environment | undefined;
   /** The final bounds of the pack's meshes, in the pack's space. */
   readonly bounds: Box3;
   /** What the pack is about: the part that its first grid covers. A ground may reach far beyond it. */
@@ -106,7 +98,6 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   readonly #renderer: WebGLRenderer;
   readonly #meshes = new Map<number, MeshRefinement>();
   readonly #images: Images;
-  readonly #environment: Environment | null;
   readonly #lights = new Map<number, LightRefinement>();
   readonly #groups: LightGroups | null;
   #direct: DirectLight | null = null;
@@ -121,7 +112,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   private constructor(
     opening: Opening,
     images: Images,
-    environment: Environment | null,
+    environment: Environment | undefined,
     grids: LightwellLight[],
     groups: LightGroups | null,
     connection: PackConnection,
@@ -132,8 +123,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#groups = groups;
     this.opening = opening;
     this.#images = images;
-    this.#environment = environment;
-    this.environment = environment?.texture ?? null;
+    this.environment = environment;
     this.#connection = connection;
     this.#renderer = renderer;
     this.#handOver = new HandOver(renderer);
@@ -175,9 +165,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       if (width * height <= most * 2 ** 20) images.set(asset, await TextureRefinement.create(textures, { width, height }, renderer));
       else console.warn(`Lightwell: an image of ${width} x ${height} pixels stays coarse; maxImageMegapixels is ${most}`);
     }
-    const { surroundings } = opening;
-    const environment = surroundings && new (await import('./environment.js')).Environment(ENVIRONMENT_KIT, surroundings);
-    if (typeof surroundings?.asset === 'number') images.set(surroundings.asset, environment!);
+    const surroundings = opening.extensions.LIGHTWELL_environment;
+    const environment =
+      surroundings && (await (await import('./environment.js')).Environment.create(DataTexture, surroundings, opening.gltf.parser));
+    if (environment?.asset !== undefined) images.set(environment.asset, environment);
     const scene = new LightwellScene(opening, images, environment, grids, groups, connection, renderer, options);
     const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
     if (lamps.length > 0) {
@@ -301,7 +292,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     this.#direct?.dispose();
-    this.#environment?.dispose();
+    this.environment?.dispose();
     disposeAll(this.opening.gltf.scene);
   }
 
