@@ -285,7 +285,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_scene_options(*command, options->scene,
                     "A glTF, OBJ, PLY, STL or Draco file, a pack, or a built-in scene; - is stdin");
   add_number(*command, "--position-error", options->pack.position_error, {1e-9, 1e9},
-             "How far a vertex may move at most, in metres (default: a 32,000th of its mesh's longest side)");
+             "How far a vertex may move at most, in metres (default: a 16,384th of its mesh's longest side)");
   add_choice<LightNodeOrder>(
       *command, "--order", options->order, {{"lattice", LightNodeOrder::lattice}, {"slices", LightNodeOrder::slices}},
       "How the light grid is streamed: from coarse to fine, or some nodes of every slice of a regular grid");
