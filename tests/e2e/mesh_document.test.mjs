@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
+import { ROOT } from './dependencies.mjs';
 import { BIN, bake, temporaryFolder } from './packs.mjs';
 import { meshStreams, PlainMesh } from './plain_mesh_decoder.mjs';
 import { sphere, writeScene } from './scenes.mjs';
@@ -83,6 +84,19 @@ function assertReads(pack, least) {
   }
   return streams;
 }
+
+test('of the example in the document', () => {
+  const text = readFileSync(`${ROOT}docs/format.md`, 'utf8').split('### An example')[1].split('```')[1];
+  const rows = (name) => [...text.matchAll(new RegExp(`^${name} +(.*)$`, 'gm'))].map(([, row]) => row.split(/ +/));
+  const threes = (name) => rows(name)[0].map(Number).reduce((all, x, i) => (i % 3 === 0 ? [...all, [x]] : [...all.slice(0, -1), [...all.at(-1), x]]), []);
+  const exponents = [-3, 0, 0];
+  const base = { positions: threes('positions').map((p) => p.map((x) => x * 2 ** exponents[0])), faces: threes('faces'), texcoords: [null, null], colors: null };
+  const mesh = new PlainMesh({ layout: { vertices: 7, faces: 10, loose: 0, attributes: 1, exponents }, base });
+  for (const row of rows('block')) mesh.append(Uint8Array.from(row, (byte) => parseInt(byte, 16)));
+  assert.deepEqual(mesh.positions.slice(5), [[32, 0, 0], [0, 24, 0]]);
+  assert.equal(mesh.faces.length, 10);
+  assert.deepEqual([...mesh.normals], [[5, [341, -170]], [6, [-153, 358]]]);
+});
 
 const BAKING = { environment: '1,1,1', photons: 1000, grid: 4 };
 const WHITE = { pbrMetallicRoughness: { metallicFactor: 0 } };
