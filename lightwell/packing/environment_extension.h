@@ -14,7 +14,7 @@ inline constexpr const char* environment_extension = "LIGHTWELL_environment";
 struct EnvironmentPicture {
   uint32_t texture = 0;
   float radiance = 0;  ///< of the byte 255, W/m2/sr
-  float stops = 0;     ///< that the byte 0 lies below it
+  float stops = 0;     ///< that 255 bytes are; the byte 0 is black
 
   bool operator==(const EnvironmentPicture&) const = default;
 };

@@ -61,7 +61,8 @@ RadianceImage decoded(const Image& image, const EnvironmentPicture& picture) {
   for (size_t i = 0; i < image.pixels.size(); i += channels)
     for (size_t c = 0; c < 3; c++) {
       const uint8_t byte = image.pixels[i + (channels < 3 ? 0 : c)];
-      map.pixels.push_back(picture.radiance * std::exp2(picture.stops * (static_cast<float>(byte) / 255 - 1)));
+      const float share = std::exp2(picture.stops * (static_cast<float>(byte) / 255 - 1));
+      map.pixels.push_back(byte == 0 ? 0 : picture.radiance * share);
     }
   return map;
 }

@@ -22,7 +22,7 @@ struct CodedRadiance {
 /// no map, or only a black one.
 std::optional<CodedRadiance> coded(const Environment& environment);
 
-/// The radiance of a coded image: radiance * 2^(stops (byte / 255 - 1)).
+/// The radiance of a coded image: radiance * 2^(stops (byte / 255 - 1)), of the byte 0 none.
 RadianceImage decoded(const Image& image, const EnvironmentPicture& picture);
 
 /// Appends the picture of a scene's environment to its document and its images, as a texture that nothing shows, and

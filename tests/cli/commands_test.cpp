@@ -357,7 +357,7 @@ TEST_F(Commands, AGridAnswersForTheSkyItWasBakedUnderOnly) {
   EXPECT_NE(refused.err.find("was baked without an environment"), std::string::npos) << refused.err;
   EXPECT_EQ(run("probe " + dark + points + "--integrator path --spp 1 --environment 1,1,1").status, 0);
 
-  // A map of one row of four pixels of radiance 1 (mantissa 128, exponent 129).
+  // A map of one row of four pixels of radiance 1 (mantissa 128, exponent 129), of which one becomes the sun.
   write("sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 4\n" +
                        std::string("\x80\x80\x80\x81\x80\x80\x80\x81\x80\x80\x80\x81\x80\x80\x80\x81", 16));
   const std::string lit = small_pack("--environment " + path("sky.hdr"));
@@ -366,7 +366,7 @@ TEST_F(Commands, AGridAnswersForTheSkyItWasBakedUnderOnly) {
                 given = run("probe " + lit + points + paths + " --environment " + path("sky.hdr"));
   EXPECT_EQ(kept.status, 0);
   EXPECT_EQ(kept.err, "");
-  EXPECT_EQ(kept.out, given.out);  // a sky of one radiance is kept exactly
+  EXPECT_EQ(kept.out, given.out);  // its radiances, 0 and 1, are kept exactly
   EXPECT_EQ(run("probe " + lit + points + "--integrator ivg --environment " + path("sky.hdr")).status, 0);
 }
 

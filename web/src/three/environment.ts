@@ -154,5 +154,5 @@ function replaced<Other>(before: Other | null, texture: DataTexture, present: bo
 
 /** The radiance of each byte, as a half float. */
 function halvesOf({ radiance, stops }: EnvironmentDefinition): Uint16Array {
-  return Uint16Array.from({ length: 256 }, (_, byte) => toHalf(radiance * 2 ** (stops * (byte / 255 - 1))));
+  return Uint16Array.from({ length: 256 }, (_, byte) => (byte === 0 ? 0 : toHalf(radiance * 2 ** (stops * (byte / 255 - 1)))));
 }

@@ -80,7 +80,7 @@ export interface LampDefinition {
   primitive?: number;
 }
 
-/** The picture of what surrounds the scene: a byte of its texture stands for the radiance * 2 ^ (stops * (byte / 255 - 1)). */
+/** The picture of what surrounds the scene: a byte of its texture stands for the radiance * 2 ^ (stops * (byte / 255 - 1)), 0 for none. */
 export interface EnvironmentDefinition {
   texture: number;
   radiance: number;
