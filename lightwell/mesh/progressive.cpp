@@ -76,7 +76,7 @@ void order_faces(const QuantizedMesh& mesh, const CollapseOrder& order, const st
   // Loose faces lie near others: they are told by their first corner, the least.
   const auto loose = out.mesh.faces.end() - static_cast<ptrdiff_t>(out.loose_faces);
   std::for_each(loose, out.mesh.faces.end(),
-                [](Face& face) { std::ranges::rotate(face, std::ranges::min_element(face)); });
+                [](Face& face) { std::rotate(face.begin(), std::ranges::min_element(face), face.end()); });
   std::sort(loose, out.mesh.faces.end());
 }
 

@@ -10,6 +10,9 @@ namespace lightwell {
 /// The LIGHTWELL_environment extension (docs/format.md): the texture that shows what surrounds the scene.
 inline constexpr const char* environment_extension = "LIGHTWELL_environment";
 
+/// What a pack may state as radiance: beyond it, products would leave the range of a float.
+inline constexpr float most_environment_radiance = 1e12f;
+
 /// Where the picture of the surroundings is, and which radiance its bytes stand for.
 struct EnvironmentPicture {
   uint32_t texture = 0;

@@ -45,7 +45,7 @@ std::optional<CodedRadiance> coded(const Environment& environment) {
   const float mean = static_cast<float>(sum / static_cast<double>(map.pixels.size()));
   CodedRadiance result;
   result.radiance = *std::ranges::max_element(map.pixels);
-  if (!(mean > 0) || !std::isfinite(result.radiance)) return std::nullopt;
+  if (!(mean > 0 && result.radiance <= most_environment_radiance)) return std::nullopt;
   result.stops = std::clamp(std::log2(result.radiance / mean) + stops_below_mean, least_stops, most_stops);
   result.image = {map.width, map.height, 3, {}};
   for (const float value : map.pixels) {

@@ -19,7 +19,7 @@ struct CodedRadiance {
 };
 
 /// Codes an environment's map, means of its pixels where it is larger than `environment_width`. Nothing where there is
-/// no map, or only a black one.
+/// no map, only a black one, or one brighter than a pack may state.
 std::optional<CodedRadiance> coded(const Environment& environment);
 
 /// The radiance of a coded image: radiance * 2^(stops (byte / 255 - 1)), of the byte 0 none.

@@ -65,7 +65,12 @@ TEST(EnvironmentPicture, OfALargeMapHoldsMeans) {
 TEST(EnvironmentPicture, OfNothingIsNone) {
   EXPECT_FALSE(coded({}));
   EXPECT_FALSE(coded({Vec3f::filled(1), nullptr}));
-  EXPECT_FALSE(coded({Vec3f::filled(1), std::make_shared<RadianceImage>(RadianceImage{4, 2, std::vector<float>(24)})}));
+  const auto even = [](float radiance) {
+    return std::make_shared<RadianceImage>(RadianceImage{4, 2, std::vector<float>(24, radiance)});
+  };
+  EXPECT_FALSE(coded({Vec3f::filled(1), even(0)}));
+  EXPECT_FALSE(coded({Vec3f::filled(1), even(1e13f)}));
+  EXPECT_TRUE(coded({Vec3f::filled(1), even(1e12f)}));
 }
 
 // What a viewer mirrors comes back from the pack, and what is baked from that pack does not carry it twice.
