@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// look.mjs FOLDER [--environment R,G,B|FILE] SCENE...: what a user sees of a default bake: the page at rest and `render --integrator ivg`, each against the path
-// tracer from the same camera, CIEDE2000 over 320 x 180 pixels, and the path tracer against itself with another seed, its noise; a row of
-// a table a scene, and FOLDER/SCENE.png with the pictures side by side and four times the difference between page and path tracer. A
+// look.mjs FOLDER [--environment R,G,B|FILE] SCENE...: what a user sees of a default bake: the page at rest and
+// `render --integrator ivg`, each against the path tracer from the same camera, CIEDE2000 over 320 x 180 pixels,
+// and the path tracer against itself with another seed, its noise; a row of a table a scene, and FOLDER/SCENE.png with the pictures side by side and four times the difference between page and path tracer. A
 // scene without a lamp stands under a uniform sky, all do under an environment that is given.
 import { execFileSync } from 'node:child_process';
 import { mkdirSync } from 'node:fs';

@@ -55,7 +55,7 @@ class FanCoder {
   bool in_run(Coder& coder, const Refinement& mesh, bool closed, Run run, NewVertex& v) {
     const auto size = static_cast<uint32_t>(v.fan.size());
     run.length = coder.symbol(length_[closed][std::min(size, 15u)], run.length);
-    if (!weigh_runs(mesh, v, closed, run.length)) return false;
+    if (!Coder::writes && !weigh_runs(mesh, v, closed, run.length)) return false;  // a writer has weighed them
     const auto places = static_cast<uint32_t>(weights_.size());
     if (places > 1) {
       AdaptiveSymbol<bits>& model = rank_[std::min(run.length, 7u)][std::min(places, 15u)];

@@ -113,7 +113,7 @@ void Refinement::add(const NewVertex& vertex, bool begins_point) {
   for (const NewFace& face : vertex.faces) add_linked({v, face.a, face.b});
 }
 
-// One way through the faces takes a third of the time of following each vertex's list.
+// One way through the faces: following each vertex's list takes much longer (docs/decisions/038-mesh-stream.md).
 std::vector<Vec<uint64_t, 3>> Refinement::area_normals() const {
   std::vector<Vec<uint64_t, 3>> sums(vertices());
   for (size_t i = 0; i < index_buffer.size(); i += 3) {

@@ -21,11 +21,10 @@ const REPEAT: typeof RepeatWrapping = 1000;
 const LINEAR: typeof LinearFilter = 1006;
 const HALF_FLOAT: typeof HalfFloatType = 1016;
 
-/** How it is seen behind the scene. */
-export type Background = 'sharp' | 'blurred' | 'none';
-
 /** Of a blurred one, as three.js counts: shapes are gone, colours left. */
 const BLUR = 0.3;
+/** Of a picture that is taken from the stream: those of the baker have an eighth. Memory is taken before it comes, on the word of the pack. */
+const MOST_PIXELS = 2 ** 20;
 const CHANNELS = 4;
 const ONE = toHalf(1);
 
@@ -48,8 +47,8 @@ export class Environment implements Refinement {
     definition: EnvironmentDefinition,
     preview: ImageBitmap,
     { width, height }: { width: number; height: number },
-    /** That the picture's stream has; none where all of it is in the opening. */
-    readonly asset: number | undefined,
+    /** Of the picture's stream; -1 where the preview is all that is shown. */
+    readonly asset: number,
   ) {
     this.#radianceOf = halvesOf(definition);
     this.#canvas.width = width;
@@ -67,7 +66,8 @@ export class Environment implements Refinement {
     const preview = ((await parser.getDependency('texture', definition.texture)) as Texture).image as ImageBitmap;
     const { textures } = parser.json as { textures: { extensions?: Record<string, unknown> }[] };
     const stated = textures[definition.texture]!.extensions?.['LIGHTWELL_progressive_texture'] as ProgressiveTextureExtension | undefined;
-    return new Environment(Picture, definition, preview, stated ?? preview, stated?.stream);
+    const streamed = stated !== undefined && stated.width * stated.height <= MOST_PIXELS;
+    return new Environment(Picture, definition, preview, streamed ? stated : preview, streamed ? stated.stream : -1);
   }
 
   /**
@@ -100,10 +100,10 @@ export class Environment implements Refinement {
     }
   }
 
-  /** At most 1 MB, at once. */
+  /** All at once: a megabyte for the baker's pictures, which a frame that hands over nothing else lets through. */
   advance(budget: UploadBudget): boolean {
     const image = this.#image;
-    if (image === null || !budget.take(this.#radianceOf.byteLength)) return false;
+    if (image === null || !budget.take((this.texture.image.data as Uint16Array).byteLength)) return false;
     this.#image = null;
     this.#consumed += this.#bytes;
     this.#show(image);

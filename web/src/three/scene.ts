@@ -168,7 +168,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const surroundings = opening.extensions.LIGHTWELL_environment;
     const environment =
       surroundings && (await (await import('./environment.js')).Environment.create(DataTexture, surroundings, opening.gltf.parser));
-    if (environment?.asset !== undefined) images.set(environment.asset, environment);
+    if (environment) images.set(environment.asset, environment);
     const scene = new LightwellScene(opening, images, environment, grids, groups, connection, renderer, options);
     const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
     if (lamps.length > 0) {
@@ -292,7 +292,6 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.#renderer.domElement.removeEventListener('webglcontextrestored', this.#restart);
     for (const refinement of this.#refinements()) refinement.dispose();
     this.#direct?.dispose();
-    this.environment?.dispose();
     disposeAll(this.opening.gltf.scene);
   }
 
