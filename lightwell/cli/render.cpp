@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/render/render.h"
 
+#include <algorithm>
+
 #include "lightwell/base/file.h"
 #include "lightwell/cli/light_factors.h"
 #include "lightwell/cli/light_source.h"
@@ -49,6 +51,14 @@ void set_size(const Options& options, const Camera& camera, RenderOptions& rende
 // Whether the picture is for the eye, so that an exposure matters.
 bool is_for_the_eye(const std::string& output) { return !output.ends_with(".exr") && !output.ends_with(".pfm"); }
 
+/// Says so when there is nothing to be seen in a picture of all light.
+void warn_if_black(const Picture& picture, const World& world, Report& report) {
+  if (std::ranges::any_of(picture.pixels, [](float radiance) { return radiance > 0; })) return;
+  report.warn(world.lights().dark()
+                  ? "the picture is black: nothing shines; --environment 1,1,1 lights the scene from all around"
+                  : "the picture is black: no light reaches what the camera sees");
+}
+
 Result<Figures> run(const Options& options, Progress& progress, Report& report) {
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
@@ -93,6 +103,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   render_options.seed = options.scene.import.seed;
   render_options.threads = options.scene.threads;
   LW_TRY(picture, render(*world, camera, render_options, progress, figures.statistics));
+  if (render_options.light.part == LightPart::total) warn_if_black(picture, *world, report);
   LW_CHECK(write_picture(options.output, picture, display));
   return figures;
 }

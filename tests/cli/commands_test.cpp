@@ -493,6 +493,19 @@ TEST_F(Commands, ASunThatMeetsOnlyOutsidesIsSaid) {
   }
 }
 
+TEST_F(Commands, ABlackPictureIsSaid) {
+  write("room.bin", room_bin());
+  write("dark.gltf", room_gltf(R"({"type":"directional","intensity":3})", R"(,
+      {"rotation":[-0.7071,0,0,0.7071],"extensions":{"KHR_lights_punctual":{"light":0}}})"));
+  write("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string small = " --integrator path --spp 2 --size 8x6 -o " + path("a.png");
+  const auto said = [&](const std::string& scene) { return run("render " + path(scene) + small).err; };
+  const std::string outside = said("dark.gltf");
+  EXPECT_NE(outside.find("the picture is black: no light reaches what the camera sees"), std::string::npos) << outside;
+  EXPECT_NE(said("face.obj --exposure 0").find("black: nothing shines; --environment 1,1,1 lights"), std::string::npos);
+  EXPECT_EQ(said("face.obj --environment 1,1,1").find("black"), std::string::npos);
+}
+
 // A lamp in a closed cupboard: whatever becomes of the cupboard's faces, both are named.
 TEST_F(Commands, ALampInACupboardIsNamed) {
   write("room.bin", room_bin());
