@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands far away, is bent by a skin or a morph target, is hidden or unlit looks on the page as in `lightwell render`: one by one,
+// What stands far away, is bent by a skin or a morph target, is hidden, unlit or turned by Exif data looks on the page as in `lightwell render`: one by one,
 // and all at once.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -45,6 +45,30 @@ function accessor(gltf, array, type, components) {
   return gltf.accessors.push({ bufferView: view, componentType, count: array.length / components, type }) - 1;
 }
 
+/** A JPEG that is dark below and red at its left, whose Exif data say that it is to be turned by a quarter. */
+async function turnedPicture() {
+  const { page, close } = await openPage(browser);
+  const url = await page.evaluate(() => {
+    const canvas = Object.assign(document.createElement('canvas'), { width: 64, height: 64 });
+    const context = canvas.getContext('2d');
+    for (const [x, y, from, to] of [[64, 0, 'red', 'white'], [0, 64, 'transparent', 'black']]) {
+      context.fillStyle = context.createLinearGradient(0, 0, x, y);
+      context.fillStyle.addColorStop(0, from);
+      context.fillStyle.addColorStop(1, to);
+      context.fillRect(0, 0, 64, 64);
+    }
+    return canvas.toDataURL('image/jpeg', 0.95);
+  });
+  await close();
+  const jpeg = Buffer.from(url.split(',')[1], 'base64');
+  // A TIFF directory of one entry: the orientation (274), a 16-bit number, is 6.
+  const tiff = [77, 77, 0, 42, 0, 0, 0, 8, 0, 1, 274 >> 8, 274 & 255, 0, 3, 0, 0, 0, 1, 0, 6, 0, 0, 0, 0, 0, 0];
+  const exif = Buffer.from([255, 0xe1, 0, 8 + tiff.length, ...Buffer.from('Exif\0\0'), ...tiff]);
+  return `data:image/jpeg;base64,${Buffer.concat([jpeg.subarray(0, 2), exif, jpeg.subarray(2)]).toString('base64')}`;
+}
+
+const TURNED = await turnedPicture();
+
 /** What each scene does to the room with its ball, node 1. */
 const SCENES = {
   'a scene far away': (gltf) => {
@@ -80,6 +104,10 @@ const SCENES = {
     const unlit = { pbrMetallicRoughness: { baseColorFactor: [0.2, 0.4, 0.8, 1] }, extensions: { KHR_materials_unlit: {} } };
     gltf.meshes[1].primitives[0].material = gltf.materials.push(unlit) - 1;
   },
+  'a picture whose Exif data turn it': (gltf) => {
+    gltf.images[0].uri = TURNED;
+    gltf.materials[0].pbrMetallicRoughness.baseColorTexture = { index: 0 };
+  },
   'a scene of all of these': (gltf) => {
     const [attributes] = gltf.meshes[1].primitives.map((primitive) => primitive.attributes);
     const ball = (material, at) => {
@@ -92,8 +120,7 @@ const SCENES = {
     gltf.extensionsUsed.push('KHR_materials_unlit', 'KHR_node_visibility');
     ball(gltf.materials.push(unlit) - 1, [0.5, -0.6, 0]);
     ball(gltf.meshes[0].primitives[0].material, [0.1, 0.2, -0.2]).extensions = { KHR_node_visibility: { visible: false } };
-    SCENES['a skin in its pose'](gltf);
-    SCENES['a scene far away'](gltf);
+    for (const other of ['a morph target at its weight', 'a skin in its pose', 'a picture whose Exif data turn it', 'a scene far away']) SCENES[other](gltf);
   },
 };
 
