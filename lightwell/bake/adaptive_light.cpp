@@ -336,7 +336,7 @@ Result<Refined> AdaptiveLight::refine(const TestPoints& points, const TestPoints
   const size_t addable = options.most_bytes - std::min(coarse, options.most_bytes);
   progress.stage("finer light", static_cast<double>(options.most_bytes), "bytes");
   Refinement end = Refinement::to_budget;
-  for (int round = 1; round <= rounds; round++) {
+  for (int round = 1;; round++) {
     const LightGrid grid = best_grid(points, rule);
     if (judge.error(grid) <= options.target_error) {
       end = Refinement::to_target;
@@ -346,6 +346,7 @@ Result<Refined> AdaptiveLight::refine(const TestPoints& points, const TestPoints
       end = Refinement::to_deadline;
       break;
     }
+    if (round > rounds) break;
     const size_t bytes = stream_bytes(grid), bricks = tree_.bricks().size();
     const size_t allowed = coarse + addable * static_cast<size_t>(round) / rounds;
     progress.advance(static_cast<double>(bytes));
@@ -358,7 +359,6 @@ Result<Refined> AdaptiveLight::refine(const TestPoints& points, const TestPoints
     }
     LW_CHECK(divide_until(worst, options, progress));
   }
-  best_grid(points, rule);
   keep_within(options, rule);
   return Refined{end, rule};
 }

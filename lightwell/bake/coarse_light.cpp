@@ -85,13 +85,13 @@ bool Effort::draft() const { return nodes == coarsest_nodes && rays == least_ray
 
 bool BestGrid::consider(const AdaptiveLight& light, std::span<const NodeRule> ways, float most) {
   bool better = false;
-  const float allowed = most * error_;
+  const float allowed = most * badness_;
   for (const NodeRule& rule : ways) {
     LightGrid grid = light.grid(rule);
     grid.normal_offset = test_.best_offset(grid);
-    const float error = test_.badness(grid);
-    if (!grid_.moments.empty() && error >= (better ? error_ : allowed)) continue;
-    error_ = error;
+    const float badness = test_.badness(grid);
+    if (!grid_.moments.empty() && badness >= (better ? badness_ : allowed)) continue;
+    badness_ = badness;
     rule_ = rule;
     nodes_ = light.count();
     grid_ = std::move(grid);

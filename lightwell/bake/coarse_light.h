@@ -48,7 +48,7 @@ Result<SurfaceCache> light_surfaces(const Place& place, const GridShape& shape, 
 Result<NodeLight> light_nodes(const BakeScene& scene, const GridShape& shape, const LightBakeOptions& options,
                               Progress& progress);
 
-/// Keeps the grid that errs least of those that it is shown.
+/// Keeps the grid that errs least, by TestPoints::badness(), of those that it is shown.
 class BestGrid {
  public:
   explicit BestGrid(const TestPoints& test) : test_(test) {}
@@ -69,7 +69,7 @@ class BestGrid {
 
   const TestPoints& test_;
   LightGrid grid_;
-  float error_ = 0;
+  float badness_ = 0;
   NodeRule rule_;
   size_t nodes_ = 0;
 };

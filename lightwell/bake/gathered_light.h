@@ -25,8 +25,7 @@ class GatheredLight {
   NodeSurroundings at_node(const Vec3f& node, const Vec3f& cell, const Facings& facings = {}, int most_sets = 16) const;
 
   /// A set of rays from a node. As many again are taken up to `most_sets` times, less with less effort, where they
-  /// leave much noise, which shows as blotches on flat walls: in a room they leave 1.4 % (docs/light.md section 3:
-  /// evenly spread, 64 leave 4 %).
+  /// leave much noise, which shows as blotches on flat walls: in a room they leave 1.4 %.
   static constexpr int rays_a_node = 256;
   NodeSurroundings around(const Vec3f& position, Random& random, int rays = rays_a_node,
                           const Facings& facings = {}) const;

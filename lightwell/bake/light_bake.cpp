@@ -13,8 +13,8 @@ namespace lightwell {
 namespace {
 
 constexpr size_t little_room = 25'000;  // bytes: so few are for a coarser grid
-/// Of the bytes, for what lies around the focus where something does.
-constexpr size_t share_of_surroundings = 8;
+/// Of the bytes and the time, for what lies around the focus where something does.
+constexpr int share_of_surroundings = 8;
 
 using Clock = std::chrono::steady_clock;
 
@@ -25,7 +25,17 @@ constexpr float most_noise = 0.02f;
 /// What a grid covers: all that there is, the focus of the scene, or what lies around that.
 enum class Extent { whole, focus, surroundings };
 
-Effort effort_of(const LightBakeOptions& options, Clock::time_point start, Extent extent) {
+/// When a grid's cells are to be divided no further, for all to be done by `end`: its light is gathered again for each
+/// of several parts, which takes as long each time.
+Clock::time_point deadline_of(Clock::time_point end, int parts, Extent extent) {
+  const Clock::time_point now = Clock::now();
+  Clock::duration left = end - now;
+  if (extent == Extent::focus) left -= left / share_of_surroundings;
+  return now + (parts > 1 ? left / (1 + parts) : left);
+}
+
+/// What a grid over an extent may take. `start`: of the whole bake; `parts`: of its light.
+Effort effort_of(const LightBakeOptions& options, Clock::time_point start, int parts, Extent extent) {
   // Three times the error would do with a ninth of the rays; it gets a third, since noise shows before it is measured.
   constexpr float usual_error = 0.01f;
   const float rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
@@ -35,9 +45,10 @@ Effort effort_of(const LightBakeOptions& options, Clock::time_point start, Exten
   if (extent == Extent::focus) effort.most_bytes -= of_surroundings;
   if (extent == Extent::surroundings) effort.most_bytes = of_surroundings;
   if (options.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
-  if (std::isfinite(options.seconds))
-    effort.deadline =
-        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+  if (std::isfinite(options.seconds)) {
+    const auto limit = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
+    effort.deadline = deadline_of(start + limit, parts, extent);
+  }
   return effort;
 }
 
@@ -131,8 +142,9 @@ Result<void> refine(CoarseLight& coarse, const TestPoints& judge, const LightBak
   // Its stream is within the bytes by this rule, and they are to pay.
   const float most = refined.end == Refinement::to_target ? 1 : most_after_refinement;
   const bool pays = coarse.best().consider(nodes, std::array{refined.rule}, most);
+  const bool could_go_on = refined.end == Refinement::to_deadline;
   if (!statistics.refinement)
-    statistics.refinement = pays || nodes.count() == unrefined ? refined.end : Refinement::to_no_gain;
+    statistics.refinement = pays || could_go_on || nodes.count() == unrefined ? refined.end : Refinement::to_no_gain;
   return {};
 }
 
@@ -165,7 +177,7 @@ std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids) {
 
 Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                                           LightBakeStatistics& statistics) {
-  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= 2);
+  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= least_photons);
   if (world.lights().dark()) {
     return fail("",
                 "nothing shines: the scene has no emissive material, no lamp and no environment; "
@@ -182,10 +194,12 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
 
   std::vector<Box3f> boxes{world.surfaces().focus()};
   if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
+  const auto parts =
+      static_cast<int>(light_parts(world, options.estimator.contained, options.groups, options.sky_apart).size());
   std::vector<BakedGrid> grids;
   for (const Box3f& box : boxes) {
     const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
-    const Effort effort = effort_of(options, start, extent);
+    const Effort effort = effort_of(options, start, parts, extent);
     LW_TRY(baked, bake_box({world, space, box}, options, effort, progress, statistics));
     for (BakedGrid& grid : baked) {
       grid.priority = static_cast<int>(&boxes.back() - &box);

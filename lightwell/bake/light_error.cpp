@@ -133,24 +133,29 @@ double TestPoints::size() const {
   return sum > 0 ? sum / (3 * static_cast<double>(points_.size())) : 1;
 }
 
+template <typename Chosen>
+float TestPoints::error_of(const LightGrid& grid, const Chosen& chosen) const {
+  double squares = 0, variance = 0, count = 0;
+  for (const Point& point : points_) {
+    if (!chosen(point)) continue;
+    squares += square(grid, point);
+    variance += static_cast<double>(brightness(point.variance));
+    count++;
+  }
+  if (count == 0) return 0;
+  // What is left of the squares without the noise scatters by the noise's variance times the root of 2 / count, for
+  // errors that are normally distributed: less than that cannot be told from nothing.
+  const double hidden = variance * std::sqrt(2 / count);
+  return static_cast<float>(std::sqrt(std::max(squares, hidden) / (3 * count)) / size());
+}
+
 float TestPoints::error(const LightGrid& grid) const {
-  if (points_.empty()) return 0;
-  double squares = 0;
-  for (const Point& point : points_) squares += square(grid, point);
-  return static_cast<float>(std::sqrt(std::max(squares, 0.0) / (3 * static_cast<double>(points_.size()))) / size());
+  return error_of(grid, [](const Point&) { return true; });
 }
 
 ErrorEstimate TestPoints::errors(const LightGrid& grid) const {
-  const auto of_kind = [&](bool on_surface) {
-    double squares = 0, count = 0;
-    for (const Point& point : points_) {
-      if (point.on_surface != on_surface) continue;
-      squares += square(grid, point);
-      count += 3;
-    }
-    return count > 0 ? static_cast<float>(std::sqrt(std::max(squares, 0.0) / count) / size()) : 0.0f;
-  };
-  return {.surface = of_kind(true), .free = of_kind(false)};
+  return {.surface = error_of(grid, [](const Point& point) { return point.on_surface; }),
+          .free = error_of(grid, [](const Point& point) { return !point.on_surface; })};
 }
 
 std::vector<TestPoints::Excess> TestPoints::excess(const LightGrid& grid) const {

@@ -43,7 +43,7 @@ class TestPoints {
   /// The root mean square difference of a grid at the points, without the noise of the gathered light, as a share of
   /// the mean irradiance. Points that next to no light reaches, below 3 % of what a tenth of all points have at
   /// least, say nothing of what is seen, and are left out. Where no point is lit it is
-  /// the difference itself, W/m2.
+  /// the difference itself, W/m2. Never less than what the noise hides, which is 0 only where there is none.
   float error(const LightGrid& grid) const;
   /// The same of each kind of points alone, as a share of the mean irradiance of all; 0 where there are none.
   ErrorEstimate errors(const LightGrid& grid) const;
@@ -73,6 +73,8 @@ class TestPoints {
       variance = (a - b) * (a - b) / 4.0f;
     }
   };
+  template <typename Chosen>
+  float error_of(const LightGrid& grid, const Chosen& chosen) const;
   static void keep_lit(std::vector<Point>& points);
   /// The squared difference of a grid at a point beyond the noise of the gathered light, summed over the colours.
   static double square(const LightGrid& grid, const Point& point);

@@ -21,7 +21,7 @@ class NodeJournal {
   /// Fails when it cannot be read or written.
   static Result<std::unique_ptr<NodeJournal>> open(const std::filesystem::path& path);
 
-  /// A number that tells apart all that a node's light depends on.
+  /// A number that tells apart what a node's light depends on; `inputs` stands for the scene and the options.
   static uint64_t key(uint64_t inputs, const Vec3f& node, const Vec3f& cell);
 
   /// What is known of a node.

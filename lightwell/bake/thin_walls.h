@@ -7,9 +7,9 @@
 namespace lightwell {
 
 /// The grid over a box with `longest` nodes on its longest axis (GridShape::over), and up to an eighth
-/// more on each axis where that puts nodes into walls, or onto sheets, that would otherwise lie between nodes. A wall
-/// thinner than a cell leaks where floors and ceilings meet it: a lookup beside it interpolates between the nodes of
-/// the two rooms, and only a node inside the wall, which is invalid, keeps them apart
+/// more, rounded up, on each axis where that puts nodes into walls, or onto sheets, that would otherwise lie between
+/// nodes. A wall thinner than a cell leaks where floors and ceilings meet it: a lookup beside it interpolates between
+/// the nodes of the two rooms, and only a node inside the wall, which is invalid, keeps them apart
 /// (docs/decisions/010-thin-walls.md).
 GridShape grid_of_walls(const World& world, const FreeSpace& space, const Box3f& box, int longest);
 

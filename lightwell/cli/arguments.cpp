@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "lightwell/bake/estimator.h"
 #include "lightwell/base/file.h"
 #include "lightwell/scene/physical_sky.h"
 #include "lightwell/texture/image_file.h"
@@ -89,8 +90,8 @@ void add_orientation_options(CLI::App& command, Orientation& orientation) {
 void add_scene_options(CLI::App& command, SceneOptions& options, const std::string& help) {
   command.add_option("scene", options.path, help)->required()->type_name("");
   add_grid_option(command, options.nodes);
-  add_count(command, "--photons", options.photons, "Photons of --method tracks: 5000, 200k, 8M, 1G",
-            "a count, such as 5000, 200k, 8M or 1G")
+  add_count(command, "--photons", options.photons, "Photons of --method tracks and faces: 5000, 200k, 8M, 1G",
+            "a count, such as 5000, 200k, 8M or 1G", least_photons)
       ->default_str("8M");
   add_row_choice(command, "--method", options.method, estimators());
   add_choice<GroupedBy>(command, "--groups", options.groups,

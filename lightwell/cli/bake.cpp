@@ -32,7 +32,6 @@ struct Options {
 
 /// What --preview stands for: enough to see whether a scene comes out right.
 constexpr double preview_seconds = 2;
-constexpr uint64_t preview_photons = 500'000;
 
 // Everything that a bake makes, in the order in which it is made.
 struct Bake {
@@ -88,11 +87,20 @@ Result<void> import_scene(const Options& options, Progress& progress, Bake& bake
 
 std::string journal_name(const Options& options) { return options.output + ".journal"; }
 
+/// Whether the nodes of the light are counted, not found.
+bool is_regular(const Options& options) {
+  // The stratified slices of S08 are those of a regular grid.
+  return options.scene.nodes || options.order == LightNodeOrder::slices || !options.scene.method->node_by_node;
+}
+
 /// Refuses options that do not go together, before any work.
 Result<void> check_options(const Options& options) {
   const bool limited = options.budget > 0 || options.stop_after || options.preview;
-  if (limited && options.scene.nodes)
-    return fail("--grid", "N says how many nodes there are: --budget, --stop-after and --preview go with auto");
+  if (limited && is_regular(options))
+    return fail("--budget, --stop-after and --preview",
+                "go with --grid auto, --order lattice and --method gather: a regular grid has the nodes that it has");
+  if (options.order == LightNodeOrder::slices && options.record != LightRecord::moments)
+    return fail("--record", "goes with --order lattice");
   if (options.resume && options.output == "-") return fail("--resume", "needs an output that is a file");
   return {};
 }
@@ -117,16 +125,12 @@ LightBakeOptions light_options(const Options& options, const Bake& bake) {
   LightBakeOptions light = options.scene.light(bake.plan.contained);
   light.groups = bake.groups;
   light.sky_apart = options.sky_apart;
-  // The stratified slices of S08 are those of a regular grid.
-  if (options.order == LightNodeOrder::slices && !options.scene.nodes) light.nodes = SceneOptions::regular;
+  if (is_regular(options)) light.nodes = options.scene.nodes.value_or(SceneOptions::regular);
   if (options.target_error) light.target_error = static_cast<float>(*options.target_error / 100);
   if (options.budget > 0) light.most_bytes = options.budget;
   if (options.stop_after) light.seconds = *options.stop_after;
   light.draft = options.preview;
-  if (options.preview) {
-    light.seconds = std::min(light.seconds, preview_seconds);
-    light.estimator.photons = std::min(light.estimator.photons, preview_photons);
-  }
+  if (options.preview) light.seconds = std::min(light.seconds, preview_seconds);
   light.estimator.journal = bake.journal.get();
   return light;
 }
@@ -297,7 +301,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
                            {"direction-magnitude", LightRecord::direction_magnitude}},
                           "Of --order lattice: how the light of a node is written (docs/light.md section 6)");
   add_number(*command, "--target-error", options->target_error, {0, 100},
-             "Of --grid auto: the error of the irradiance, root mean square in percent, at which cells are fine enough")
+             "The error of the irradiance, root mean square in percent, at which rays are enough and cells fine enough")
       ->default_str("1");
   add_count(*command, "--budget", options->budget,
             "Of --grid auto: bytes that the light may take, of each group: 40k, 128k, 1M",
@@ -305,7 +309,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
       ->default_str("131072");
   add_number(*command, "--stop-after", options->stop_after, {0, 1e9},
              "Of --grid auto: about so many seconds the light may take; what there is then, is written");
-  command->add_flag("--preview", options->preview, "A first light in seconds: fewer photons, and --stop-after 2");
+  command->add_flag("--preview", options->preview, "A first light in seconds: fewer rays, and --stop-after 2");
   command->add_flag("--sky-apart", options->sky_apart,
                     "Keep the sky's own light in a grid apart from what surfaces reflect");
   command->add_flag("--resume", options->resume,

@@ -20,7 +20,8 @@ Result<std::optional<EnvironmentPicture>> read_environment_picture(const Json& j
   MemberReader reader(stated, environment_extension);
   const EnvironmentPicture picture{reader.whole("texture"), reader.real("radiance"), reader.real("stops")};
   if (element(member(json, "textures"), picture.texture).is_null()) reader.refuse("texture", "is not there");
-  if (!(picture.radiance > 0 && picture.radiance <= most_environment_radiance)) reader.refuse("radiance", "is out of range");
+  if (!(picture.radiance > 0 && picture.radiance <= most_environment_radiance))
+    reader.refuse("radiance", "is out of range");
   if (!(picture.stops > 0 && picture.stops <= most_stops)) reader.refuse("stops", "is out of range");
   return reader.finish(std::optional(picture));
 }

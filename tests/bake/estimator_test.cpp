@@ -14,7 +14,7 @@ namespace lightwell {
 namespace {
 
 bool same_bits(const NodeLight& a, const NodeLight& b) {
-  return a.moments.size() == b.moments.size() && a.insides == b.insides && a.rays == b.rays &&
+  return a.moments.size() == b.moments.size() && a.insides == b.insides && a.noise == b.noise && a.rays == b.rays &&
          std::memcmp(a.moments.data(), b.moments.data(), a.moments.size() * sizeof(Moments)) == 0;
 }
 

@@ -37,6 +37,20 @@ struct Furnace {
   }
 };
 
+/// A furnace around a small bright block, which few rays find.
+struct BrightBlock {
+  Furnace furnace;
+  Progress silent;
+  std::unique_ptr<const World> world = [this] {
+    add(furnace.scene, block({{0.9f, 0.6f, 1.4f}}, {{1.1f, 0.8f, 1.6f}}), lambertian(0.5f, 400));
+    return world_of(furnace.scene);
+  }();
+  Box3f box = world->surfaces().bounds();
+  SurfaceCache cache = SurfaceCache::build(*world, furnace.middle, {.region = box, .cell = 0.2f}, silent).value();
+  GatheredLight light{{*world, furnace.space, cache, box}, {}};
+  TestPointOptions few{.surface_points = 100, .rays = 32, .near = 8};
+};
+
 // The cells' noise, some 1.5 %, is what is left of a grid that is right.
 TEST(TestPoints, TellTheErrorOfAGrid) {
   Furnace furnace;
@@ -70,18 +84,28 @@ TEST(TestPoints, InFreeSpaceLieAnywhere) {
 
 // With few rays noise is larger than the errors that are looked for; a grid's error must not drown in it.
 TEST(TestPoints, TakeRaysUntilTheirNoiseIsSmall) {
-  Furnace furnace;
-  add(furnace.scene, block({{0.9f, 0.6f, 1.4f}}, {{1.1f, 0.8f, 1.6f}}), lambertian(0.5f, 400));
-  const std::unique_ptr<const World> world = world_of(furnace.scene);
-  const SurfaceCache cache =
-      SurfaceCache::build(*world, furnace.middle, {.region = world->surfaces().bounds(), .cell = 0.2f}, furnace.silent)
-          .value();
-  const GatheredLight light({*world, furnace.space, cache, world->surfaces().bounds()}, {});
-  const TestPointOptions few{.surface_points = 100, .rays = 32, .near = 8};
-  TestPointOptions enough = few;
+  BrightBlock lit;
+  TestPointOptions enough = lit.few;
   enough.most_noise = 0.2f;
-  EXPECT_GT(TestPoints::gather(light, few, furnace.silent).value().noise(), 0.2f);
-  EXPECT_LE(TestPoints::gather(light, enough, furnace.silent).value().noise(), 0.2f);
+  EXPECT_GT(TestPoints::gather(lit.light, lit.few, lit.silent).value().noise(), 0.2f);
+  EXPECT_LE(TestPoints::gather(lit.light, enough, lit.silent).value().noise(), 0.2f);
+}
+
+// By chance what is left without the noise can be less than nothing: that is no reason to state an error of 0.
+TEST(TestPoints, NeverTellOfNoError) {
+  BrightBlock lit;
+  for (uint64_t seed = 1; seed <= 20; seed++) {
+    TestPointOptions few = lit.few;
+    few.seed = seed;
+    few.free_points = 20;
+    const TestPoints test = TestPoints::gather(lit.light, few, lit.silent).value();
+    for (const float share : {1.0f, 2.0f, 3.0f, 5.0f}) {
+      const LightGrid grid = lit.furnace.grid(share, share);
+      EXPECT_GT(test.error(grid), 0) << seed << ' ' << share;
+      EXPECT_GT(test.errors(grid).surface, 0) << seed << ' ' << share;
+      EXPECT_GT(test.errors(grid).free, 0) << seed << ' ' << share;
+    }
+  }
 }
 
 TEST(TestPoints, AreTheSameForAnyNumberOfThreads) {

@@ -78,6 +78,7 @@ TEST(LightGroups, HoldTheLightOfTheirLuminairesAlone) {
   const auto world = world_of(scene);
   const auto groups = group_luminaires(*world, GroupedBy::name);
   const std::vector<BakedGrid> grids = bake(*world, 7, *groups);
+  ASSERT_FALSE(grids.empty());
   ASSERT_EQ(grids.size() % 3, 0u);
   for (size_t i = 0; i < grids.size(); i++) {
     EXPECT_EQ(grids[i].contains.group, (*groups)[i % 3].name);

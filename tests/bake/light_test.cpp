@@ -315,6 +315,13 @@ TEST(BakeLight, AdaptiveGridsAgreeWithTheTruthOutdoors) {
   }
 }
 
+void expect_same_bricks(const LightGrid& grid, const LightGrid& expected) {
+  ASSERT_TRUE(std::ranges::equal(grid.tree.bricks(), expected.tree.bricks()));
+  EXPECT_EQ(grid.normal_offset, expected.normal_offset);
+  for (size_t brick = 0; brick < expected.bricks.size(); brick++)
+    EXPECT_EQ(std::memcmp(&grid.bricks[brick], &expected.bricks[brick], sizeof(BrickPoints)), 0);
+}
+
 TEST(BakeLight, AdaptiveGridsAreTheSameForAnyNumberOfThreads) {
   Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1, 1}}), lambertian(0.5f));
   scene.lamps = {point_lamp({{0.2f, 0.8f, 0.3f}}, Vec3f::filled(1))};
@@ -328,13 +335,7 @@ TEST(BakeLight, AdaptiveGridsAreTheSameForAnyNumberOfThreads) {
   };
   const LightGrid one = baked(1);
   EXPECT_FALSE(one.bricks.empty());
-  for (const int threads : {2, 3, 7}) {
-    const LightGrid other = baked(threads);
-    ASSERT_TRUE(std::ranges::equal(other.tree.bricks(), one.tree.bricks()));
-    EXPECT_EQ(other.normal_offset, one.normal_offset);
-    for (size_t brick = 0; brick < one.bricks.size(); brick++)
-      EXPECT_EQ(std::memcmp(&other.bricks[brick], &one.bricks[brick], sizeof(BrickPoints)), 0);
-  }
+  for (const int threads : {2, 3, 7}) expect_same_bricks(baked(threads), one);
 }
 
 TEST(BakeLight, AdaptiveGridsKeepWithinTheirBudget) {
@@ -360,7 +361,8 @@ TEST(BakeLight, AdaptiveGridsStopAtTheirTarget) {
   o.target_error = 0.05f;
   const Baked baked = bake(*world_of(scene), o);
   EXPECT_EQ(baked.statistics.refinement, Refinement::to_target);
-  EXPECT_LT(baked.statistics.estimated_error, 0.08f) << "at points that it was not fitted to, nearer to surfaces";
+  // The normal offset of what is kept is chosen by other points than that of the grid that was judged.
+  EXPECT_LT(baked.statistics.estimated_error, 1.1f * o.target_error);
   EXPECT_LT(stream_bytes(baked.grid), 60'000u);
 }
 
@@ -374,6 +376,19 @@ TEST(BakeLight, AdaptiveGridsStopWhenTimeIsUp) {
   EXPECT_TRUE(baked.grid.bricks.empty());
   const TruthScore score = compare(baked.grid, "a_cornell.surf.indirect");
   EXPECT_LT(score.rms, 0.15) << "9 nodes on the longest axis are coarse but right";
+}
+
+TEST(BakeLight, TimeThatIsPlentyChangesNothing) {
+  const Scene scene = truth_scene("b_tworooms");
+  const auto world = world_of(scene);
+  LightBakeOptions o = options(0, 100000);
+  o.most_bytes = 16'000;
+  const LightGrid whole = bake(*world, o).grid;
+  o.seconds = 1e6;
+  const Baked limited = bake(*world, o);
+  EXPECT_FALSE(whole.bricks.empty());
+  expect_same_bricks(limited.grid, whole);
+  EXPECT_NE(limited.statistics.refinement, Refinement::to_deadline);
 }
 
 TEST(BakeLight, AdaptiveGridsNeedAMethodThatGoesNodeByNode) {

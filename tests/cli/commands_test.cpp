@@ -102,7 +102,14 @@ TEST_F(Commands, EveryKindOfGridIsPackedAndRead) {
   }
   const Outcome refused = run("bake box-small --grid 6 --budget 20k -o " + path("no.glb"));
   EXPECT_EQ(refused.status, 1);
-  EXPECT_NE(refused.err.find("go with auto"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("go with --grid auto"), std::string::npos) << refused.err;
+  for (const std::string options :
+       {"--order slices --stop-after 1", "--order slices --preview", "--method tracks --budget 5k",
+        "--method faces --preview", "--order slices --record floats"}) {
+    const Outcome outcome = run("bake box-small " + options + " -o " + path("no.glb"));
+    EXPECT_EQ(outcome.status, 1) << options;
+    EXPECT_EQ(outcome.lines(), 1u) << outcome.err;
+  }
   EXPECT_FALSE(fs::exists(path("no.glb")));
   EXPECT_EQ(run("bake box-small --grid 6 --preview --resume -o " + path("no.glb")).status, 1);
   EXPECT_FALSE(fs::exists(path("no.glb.journal"))) << "what is refused leaves nothing";
