@@ -98,7 +98,8 @@ void add_watch_options(CLI::App& command, SceneWatch::Options& watched) {
 CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   options->server.page = page_folder();
-  CLI::App* command = program.add_subcommand("serve", "HTTP server for packs, with the page");
+  CLI::App* command = program.add_subcommand(
+      "serve", "HTTP server for packs, with the page; says where, to a program as a line of JSON");
   command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")
       ->type_name("");
   add_watch_options(*command, options->watched);
@@ -125,7 +126,8 @@ CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& c
   command->callback([=, &console, &chosen] {
     const std::chrono::duration<double> grace(options->grace);
     options->server.grace = std::chrono::duration_cast<std::chrono::milliseconds>(grace);
-    if (options->server.packs.empty() && options->watched.scene.empty()) throw CLI::RequiredError("packs");
+    if (options->server.packs.empty() && options->watched.scene.empty())
+      throw CLI::RequiredError("packs, or --watch with a scene,");
     chosen = [=, &console] { return serve(*options, console); };
   });
   return command;

@@ -137,7 +137,7 @@ TEST_F(Watch, WhatCannotBeBakedAtFirstIsRefused) {
   EXPECT_NE(unknown.err.find("bake: --unknown: no such option"), std::string::npos) << unknown.err;
   const Outcome nothing = run("serve");
   EXPECT_EQ(nothing.status, 2);
-  EXPECT_NE(nothing.err.find("packs is required"), std::string::npos) << nothing.err;
+  EXPECT_NE(nothing.err.find("packs, or --watch with a scene, is required"), std::string::npos) << nothing.err;
   EXPECT_EQ(run("serve " + path("square.gltf") + " --bake --sky").status, 2);
 }
 
