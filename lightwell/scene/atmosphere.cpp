@@ -129,8 +129,9 @@ Vec3d Atmosphere::mean_of_scattered_before(double height) const {
   const Vec3d from = ground() + Vec3d{{0, height, 0}};
   Vec3d once{}, fraction{};
   for (int i = 0; i < circles * places; i++) {
-    const double cosine = 2 * (i / places + 0.5) / circles - 1;
-    const double sine = std::sqrt(1 - cosine * cosine), angle = pi * (i % places + 0.5) / places;
+    const int circle = i / places, step = i % places;
+    const double cosine = 2 * (circle + 0.5) / circles - 1;
+    const double sine = std::sqrt(1 - cosine * cosine), angle = pi * (step + 0.5) / places;
     const Vec3d direction{{sine * std::cos(angle), cosine, sine * std::sin(angle)}};
     const double to_earth = distance_to_earth(from, direction);
     const double way = to_earth >= 0 ? to_earth : distance_out(from, direction, earth + air);
