@@ -10,18 +10,15 @@
 #include <set>
 
 #include "tests/base/gzipped.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// An empty folder of the test's own, removed at its end.
 class FileTest : public testing::Test {
  protected:
-  FileTest() { fs::create_directories(folder_); }
-  ~FileTest() override { fs::remove_all(folder_); }
-
   std::set<std::string> names() const {
     std::set<std::string> all;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
@@ -33,14 +30,14 @@ class FileTest : public testing::Test {
     return bytes ? std::string(bytes->begin(), bytes->end()) : bytes.error().message();
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) /
-                           (std::string("lightwell_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 using Append = std::function<bool(Bytes)>;
 
 TEST_F(FileTest, IsWrittenAsAWholeOrNotAtAll) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_file_test";
+  const std::filesystem::path path = folder_ / "file";
   ASSERT_TRUE(write_file(path, as_bytes("first")));
   auto failing = write_file(path, [](const std::function<bool(Bytes)>& append) -> Result<void> {
     append(as_bytes("half"));
@@ -51,13 +48,13 @@ TEST_F(FileTest, IsWrittenAsAWholeOrNotAtAll) {
   EXPECT_EQ(read_file(path)->size(), 5u);
   std::filesystem::remove(path);
   EXPECT_FALSE(read_file(path));
-  EXPECT_FALSE(read_file(std::filesystem::path(testing::TempDir())));
-  EXPECT_FALSE(write_file(testing::TempDir(), as_bytes("a folder")));
+  EXPECT_FALSE(read_file(folder_));
+  EXPECT_FALSE(write_file(folder_, as_bytes("a folder")));
 }
 
 // Zeros deflate to a thousandth; what people have does not.
-TEST(File, GzipIsInflatedToTwoHundredTimesTheFileAtMost) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_bomb_test";
+TEST_F(FileTest, GzipIsInflatedToTwoHundredTimesTheFileAtMost) {
+  const std::filesystem::path path = folder_ / "bomb";
   ASSERT_TRUE(write_file(path, as_bytes(gzipped(std::string(size_t(40) << 20, '\0')))));
   const auto bomb = read_file(path, true);
   ASSERT_FALSE(bomb);
@@ -69,7 +66,7 @@ TEST(File, GzipIsInflatedToTwoHundredTimesTheFileAtMost) {
 
 // Tools that pack in parallel or in blocks (bgzip) write many members, the last one empty.
 TEST_F(FileTest, IsInflatedMemberByMember) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "lightwell_gzip_test";
+  const std::filesystem::path path = folder_ / "packed";
   const auto inflated = [&](const std::string& packed) {
     EXPECT_TRUE(write_file(path, as_bytes(packed)));
     const auto bytes = read_file(path, true, 100);

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/temporary_folder.h"
+
 namespace lightwell {
 
 namespace fs = std::filesystem;
@@ -26,14 +28,6 @@ struct Outcome {
 /// Runs the program in a folder of the test's own.
 class Commands : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              ("lightwell_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Outcome run(const std::string& arguments) const {
     return run_in_shell("timeout 300 " LIGHTWELL_PROGRAM " " + arguments + redirected());
   }
@@ -43,8 +37,8 @@ class Commands : public testing::Test {
                         path("stderr") + "; do kill -0 $! 2>/dev/null || break; sleep 0.02; done; kill -" + signal +
                         " $!; wait $!");
   }
-  const fs::path& folder() const { return folder_; }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  const fs::path& folder() const { return folder_.path(); }
+  std::string path(const std::string& name) const { return (folder() / name).string(); }
   std::string redirected() const { return " >" + path("stdout") + " 2>" + path("stderr"); }
   Outcome run_in_shell(const std::string& command) const {
     fs::remove(path("stdout"));  // who waits for a word must not find that of the run before
@@ -81,7 +75,7 @@ class Commands : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 }  // namespace lightwell

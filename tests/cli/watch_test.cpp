@@ -43,14 +43,12 @@ std::string corners(float half_side) {
 class Watch : public Commands {
  protected:
   void SetUp() override {
-    Commands::SetUp();
     fs::create_directories(path("temporary"));
     write("square.gltf", square("red"));
     write("square.bin", corners(1));
   }
   void TearDown() override {
     if (!ended_) stop();
-    Commands::TearDown();
   }
 
   /// Begins to watch the square, and waits until the server tells its address.

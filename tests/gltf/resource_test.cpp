@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tests/gltf/samples.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
@@ -16,7 +17,6 @@ namespace fs = std::filesystem;
 class Resource : public testing::Test {
  protected:
   void SetUp() override {
-    fs::remove_all(root_);
     fs::create_directories(folder_ / "sub dir");
     std::ofstream(folder_ / "sub dir" / "a+b%.bin") << "inside";
     std::ofstream(root_ / "secret.bin") << "outside";
@@ -24,14 +24,13 @@ class Resource : public testing::Test {
     fs::create_symlink(folder_ / "sub dir" / "a+b%.bin", folder_ / "in.bin");
     fs::create_directory_symlink(root_, folder_ / "up");
   }
-  void TearDown() override { fs::remove_all(root_); }
-
   std::string read(const std::string& uri) const {
     const auto bytes = read_uri(uri, folder_);
     return bytes ? std::string(bytes->begin(), bytes->end()) : "error: " + bytes.error().reason;
   }
 
-  const fs::path root_ = fs::path(testing::TempDir()) / "lightwell-resource";
+  const TemporaryFolder temporary_;
+  const fs::path root_ = temporary_.path();
   const fs::path folder_ = root_ / "folder";
 };
 

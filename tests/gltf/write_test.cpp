@@ -9,6 +9,7 @@
 #include "lightwell/gltf/references.h"
 #include "lightwell/texture/image_file.h"
 #include "tests/gltf/samples.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
@@ -233,11 +234,10 @@ TEST(WriteGlb, EmptyDocumentHasNoBinaryChunk) {
 TEST(WriteGlb, PutsImagesInsideAndAWhitePixelForMissingOnes) {
   const Image red{1, 1, 3, {255, 0, 0}};
   Document document;
-  document.folder = std::filesystem::path(testing::TempDir()) / "lightwell-write-images";
-  std::filesystem::create_directories(document.folder);
+  const TemporaryFolder folder;
+  document.folder = folder.path();
   const std::vector<uint8_t> png = write_png(red);
-  std::ofstream(document.folder / "red.png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  folder.write("red.png", std::string(png.begin(), png.end()));
   DocumentBuilder builder(document);
   builder.add("images", {{"uri", "red.png"}, {"name", "red"}});
   builder.add("images", {{"uri", "missing.png"}});
@@ -255,7 +255,6 @@ TEST(WriteGlb, PutsImagesInsideAndAWhitePixelForMissingOnes) {
   EXPECT_EQ(white->pixels[0], 255);
   EXPECT_EQ(report.warnings,
             std::vector<std::string>{"images[1]: the file missing.png cannot be found; a white pixel stands for it"});
-  std::filesystem::remove_all(document.folder);
 }
 
 }  // namespace

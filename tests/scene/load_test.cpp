@@ -10,27 +10,12 @@
 #include "lightwell/scene/scene.h"
 #include "lightwell/texture/image_file.h"
 #include "tests/base/gzipped.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder for a test's files, removed at its end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() : path_(fs::temp_directory_path() / ("lightwell-load-test-" + std::to_string(getpid()))) {
-    fs::create_directories(path_);
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  std::string write(const std::string& name, const std::string& text) const {
-    EXPECT_TRUE(write_file(path_ / name, as_bytes(text)));
-    return (path_ / name).string();
-  }
-
- private:
-  fs::path path_;
-};
 
 size_t triangles_of(const Scene& scene) {
   size_t count = 0;

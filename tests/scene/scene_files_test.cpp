@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
@@ -13,20 +13,11 @@ namespace fs = std::filesystem;
 
 class SceneFiles : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return folder_ / name;
-  }
-  fs::path in_folder(const std::string& name) const { return folder_ / name; }
+  fs::path write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
+  fs::path in_folder(const std::string& name) const { return folder_.path() / name; }
 
  private:
-  fs::path folder_ = fs::path(testing::TempDir()) / "lightwell_scene_files";
+  const TemporaryFolder folder_;
 };
 
 constexpr const char* gltf = R"({"asset": {"version": "2.0"},
