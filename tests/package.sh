@@ -18,6 +18,7 @@ echo "${package##*/}: $(stat -c %s "$package") bytes, needs $(dpkg-deb -f "$pack
 for needed in libembree3 libdraco libmeshoptimizer libpng16 libjpeg libwebp libc6 libstdc++6; do
   dpkg-deb -f "$package" Depends | grep -q "$needed" || complain "it does not depend on $needed"
 done
+apt-get install --simulate "$package" >"$work/log" 2>&1 || complain "apt would not install it: $(tail -n 1 "$work/log")"
 ! grep -qF "$PWD" "$program" || complain "the program knows the folder it was built in"
 [ "$("$program" --version)" = "$(dpkg-deb -f "$package" Version)" ] || complain "versions differ"
 
