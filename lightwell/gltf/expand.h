@@ -28,7 +28,8 @@ Result<void> expand_meshopt(Document& document, Budget& budget);
 Result<void> expand_draco(Document& document, Budget& budget);
 
 /// Expands accessors of primitives and instances that are sparse or lack a buffer view (all zeros) into buffer views of
-/// their own. Accessors of morph targets and animations are left as they are.
+/// their own. Accessors of morph targets and animations are left as they are, but for a place in no buffer, which some
+/// files state and glTF forbids.
 Result<void> expand_sparse(Document& document, Budget& budget);
 
 }  // namespace lightwell

@@ -102,6 +102,9 @@ Result<std::vector<Vec3f>> read_sparse_vectors(const Document& document, int acc
 Result<void> expand_sparse(Document& document, Budget& budget) {
   for (const int accessor : drawn_accessors(document.json))
     LW_CHECK(expand_accessor(document, static_cast<size_t>(accessor), budget));
+  if (!document.json.contains("accessors")) return {};
+  for (Json& accessor : document.json["accessors"])
+    if (!accessor.contains("bufferView")) accessor.erase("byteOffset");
   return {};
 }
 

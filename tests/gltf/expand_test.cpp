@@ -357,5 +357,34 @@ TEST(Sparse, ZerosNeedNoBuffer) {
             "accessors[0]: expands to more than is sensible for a file of this size");
 }
 
+// Of an animation, whose accessors stay as they are: a validator refuses a file that has one.
+TEST(Sparse, APlaceInNoBufferGoes) {
+  Document document = document_of(square());
+  DocumentBuilder builder(document);
+  const int indices = builder.buffer_view(raw<uint8_t>({1}));
+  const int values = builder.buffer_view(raw<float>({2}));
+  const int times = builder.add("accessors", {{"byteOffset", 0},
+                                              {"componentType", 5126},
+                                              {"count", 2},
+                                              {"type", "SCALAR"},
+                                              {"min", {0}},
+                                              {"max", {2}},
+                                              {"sparse",
+                                               {{"count", 1},
+                                                {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+                                                {"values", {{"bufferView", values}}}}}});
+  const int places =
+      builder.add("accessors", {{"bufferView", values}, {"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}});
+  document.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
+                                  {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+  const auto read = read_again(document);
+  ASSERT_TRUE(read) << read.error().message();
+  const Json& accessors = read->json["accessors"];
+  const auto sparse = std::ranges::find_if(accessors, [](const Json& accessor) { return accessor.contains("sparse"); });
+  ASSERT_NE(sparse, accessors.end());
+  EXPECT_FALSE(sparse->contains("byteOffset"));
+  EXPECT_EQ((*sparse)["count"], 2);
+}
+
 }  // namespace
 }  // namespace lightwell
