@@ -59,12 +59,9 @@ class Estimator {
   virtual NodeLight finish(const PartialLight& whole) const = 0;
 };
 
-/// Of one alone no noise could be told.
-inline constexpr uint64_t least_photons = 2;
-
 /// Options of an estimator.
 struct EstimatorOptions {
-  uint64_t photons = 8'000'000;  ///< at least least_photons
+  uint64_t photons = 8'000'000;
   uint64_t seed = 1;
   /// The luminaires whose direct light goes into the grid as well.
   LuminaireSet contained;

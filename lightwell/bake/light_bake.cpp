@@ -177,7 +177,7 @@ std::vector<LightField::Layer> layers_of(std::vector<BakedGrid> grids) {
 
 Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOptions& options, Progress& progress,
                                           LightBakeStatistics& statistics) {
-  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= least_photons);
+  LW_ASSERT((options.nodes == 0 || options.nodes >= 2) && options.estimator.photons >= 1);
   if (world.lights().dark()) {
     return fail("",
                 "nothing shines: the scene has no emissive material, no lamp and no environment; "

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <sstream>
 
-#include "lightwell/bake/estimator.h"
 #include "lightwell/base/file.h"
 #include "lightwell/scene/physical_sky.h"
 #include "lightwell/texture/image_file.h"
@@ -91,7 +90,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options, const std::stri
   command.add_option("scene", options.path, help)->required()->type_name("");
   add_grid_option(command, options.nodes);
   add_count(command, "--photons", options.photons, "Photons of --method tracks and faces: 5000, 200k, 8M, 1G",
-            "a count, such as 5000, 200k, 8M or 1G", least_photons)
+            "a count, such as 5000, 200k, 8M or 1G")
       ->default_str("8M");
   add_row_choice(command, "--method", options.method, estimators());
   add_choice<GroupedBy>(command, "--groups", options.groups,

@@ -94,11 +94,11 @@ std::optional<uint64_t> parse_count(const std::string& text) {
 }
 
 CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help,
-                       const std::string& expected, uint64_t least) {
-  const auto take = [&value, expected, least](const std::string& text) -> Result<void> {
+                       const std::string& expected) {
+  const auto take = [&value, expected](const std::string& text) -> Result<void> {
     const std::optional<uint64_t> count = parse_count(text);
     if (!count) return fail(text, "is not " + expected);
-    if (*count < least) return fail(text, "is not at least " + std::to_string(least));
+    if (*count == 0) return fail(text, "is not at least 1");
     value = *count;
     return {};
   };

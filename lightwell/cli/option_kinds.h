@@ -70,10 +70,10 @@ CLI::Option* add_whole(CLI::App& command, const std::string& name, T& value, Num
   return add_text(command, name, "N", take, help)->default_str(std::to_string(value));
 }
 
-/// Adds an option whose value is a count of at least `least`, as parse_count reads it. `expected` describes it, with
+/// Adds an option whose value is a count of at least 1, as parse_count reads it. `expected` describes it, with
 /// examples, for the error message.
 CLI::Option* add_count(CLI::App& command, const std::string& name, uint64_t& value, const std::string& help,
-                       const std::string& expected, uint64_t least = 1);
+                       const std::string& expected);
 
 /// "a, b or c"
 std::string one_of(const std::vector<std::string>& names);

@@ -98,8 +98,8 @@ void add_watch_options(CLI::App& command, SceneWatch::Options& watched) {
 CLI::App* add_serve(CLI::App& program, Console& console, std::function<int()>& chosen) {
   auto options = std::make_shared<Options>();
   options->server.page = page_folder();
-  CLI::App* command = program.add_subcommand(
-      "serve", "HTTP server for packs, with the page; says where, to a program as a line of JSON");
+  CLI::App* command =
+      program.add_subcommand("serve", "HTTP server for packs, with the page; prints its address, to a program as JSON");
   command->add_option("packs", options->server.packs, "Packs, or folders of packs; each is at /packs/NAME")
       ->type_name("");
   add_watch_options(*command, options->watched);

@@ -28,8 +28,7 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
            {"bake box-small --grid many" + out, "neither auto nor"},
            {"bake box-small --order best" + out, "--order: best: is not lattice or slices"},
            {"bake box-small --photons many" + out, "such as 5000, 200k, 8M or 1G"},
-           {"bake box-small --photons 0" + out, "is not at least 2"},
-           {"bake box-small --photons 1" + out, "is not at least 2"},
+           {"bake box-small --photons 0" + out, "is not at least 1"},
            {"bake box-small --photons nan" + out, "such as 5000"},
            {"bake box-small --unit nan" + out, "--unit: nan: is not a number from 1e-09 to"},
            {"bake box-small --unit inf" + out, "--unit: inf: is not a number"},
@@ -92,6 +91,13 @@ TEST_F(Commands, CountsTakeSuffixesOfBothCases) {
   for (const std::string count : {"20k", "20K", "0.02M", "0.02m", "2e4", "20000"}) {
     const Outcome baked = run("bake furnace --grid 2 --json --quiet -o " + path("x.glb") + " --photons " + count);
     EXPECT_EQ(json::parse(baked.out)["photons"], 20000) << count;
+  }
+}
+
+TEST_F(Commands, OnePhotonIsACount) {
+  for (const std::string method : {"gather", "tracks", "faces"}) {
+    const Outcome baked = run("bake furnace --grid 2 --quiet --photons 1 -o " + path("x.glb") + " --method " + method);
+    EXPECT_EQ(baked.status, 0) << method << ' ' << baked.err;
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What stands far away, is bent by a skin or a morph target, is hidden, unlit or turned by Exif data looks on the page as in `lightwell render`: one by one,
-// and all at once.
+// What stands far away, is bent by a skin or a morph target, is hidden, unlit or turned by Exif data looks on the page as in `lightwell
+// render`: one by one, and all at once.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';

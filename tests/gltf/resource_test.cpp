@@ -24,6 +24,7 @@ class Resource : public testing::Test {
     fs::create_symlink(folder_ / "sub dir" / "a+b%.bin", folder_ / "in.bin");
     fs::create_directory_symlink(root_, folder_ / "up");
   }
+
   std::string read(const std::string& uri) const {
     const auto bytes = read_uri(uri, folder_);
     return bytes ? std::string(bytes->begin(), bytes->end()) : "error: " + bytes.error().reason;

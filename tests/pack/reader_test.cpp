@@ -2,7 +2,6 @@
 #include "lightwell/pack/reader.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <filesystem>
@@ -10,6 +9,7 @@
 
 #include "lightwell/base/file.h"
 #include "tests/pack/pack_samples.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
@@ -19,8 +19,8 @@ namespace {
 TEST(PackReader, IsReadByThreadsAtTheSameTime) {
   const std::vector<PackStream> streams = random_streams(3);
   Random random(4, 0);
-  const std::string path =
-      (std::filesystem::temp_directory_path() / ("lightwell-reader-test-" + std::to_string(getpid()))).string();
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "pack.glb";
   ASSERT_TRUE(write_file(path, make_pack(random_bytes(random, 999), streams)));
   const auto reader = PackReader::open_file(path);
   ASSERT_TRUE(reader) << reader.error().message();

@@ -2,13 +2,13 @@
 #include "lightwell/render/picture.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 
 #include "lightwell/base/random.h"
 #include "lightwell/render/float_picture.h"
 #include "lightwell/texture/image_file.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
@@ -20,14 +20,10 @@ Picture random_picture(int width, int height, uint64_t seed) {
   return picture;
 }
 
-// A folder of its own that goes when the test ends.
 class PictureFiles : public testing::Test {
  protected:
-  PictureFiles() { std::filesystem::create_directories(folder_); }
-  ~PictureFiles() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("lightwell_picture_test_" + std::to_string(::getpid()));
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(PictureFiles, FloatsComeBackAsTheyWere) {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
-#include "lightwell/base/file.h"
 #include "lightwell/scene/scene.h"
+#include "tests/temporary_folder.h"
 
 namespace lightwell {
 namespace {
-
-namespace fs = std::filesystem;
 
 // A triangle with its right angle at the origin, 300 cm along x and 200 cm upwards: z is up.
 const std::string collada = R"(<?xml version="1.0"?>
@@ -28,11 +25,10 @@ const std::string collada = R"(<?xml version="1.0"?>
 )";
 
 TEST(ImportAssimp, ReadsColladaWhereItIsBuiltIn) {
-  const fs::path path = fs::temp_directory_path() / ("lightwell-assimp-test-" + std::to_string(getpid()) + ".dae");
-  ASSERT_TRUE(write_file(path, as_bytes(collada)));
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.write("triangle.dae", collada);
   Report report;
   const auto scene = load_scene(path.string(), {}, report);
-  fs::remove(path);
 #ifdef LIGHTWELL_ASSIMP
   ASSERT_TRUE(scene) << scene.error().message();
   constexpr float rounding = 1e-5f;  // of a unit and a turn in floats
