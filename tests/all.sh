@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # What `./run test --all` adds: format and lint, every test under sanitizers (built by Clang) with ten times the seeds, ten
-# minutes of fuzzing, the server under faults, the npm package in slow toolchains, the add-on in Blender, the Debian package, and everything in
+# minutes of fuzzing, the server under faults, the formats of assimp, the npm package in slow toolchains, the add-on in Blender, the Debian package, and everything in
 # ../shared/data baked, verified and streamed. Expects build/release. FUZZ_SECONDS and SOAK_SECONDS (120; 600 for a thorough look) say
 # how long.
-#   all.sh [PART...]   one or several of: style sanitizers fuzz soak toolchains blender package shared; all by default
+#   all.sh [PART...]   one or several of: style sanitizers fuzz soak formats toolchains blender package shared; all by default
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-600}
@@ -72,6 +72,15 @@ soak() {
   tests/server_soak.py build/release/bin/lightwell build/soak/box.lw.glb --seconds "$soak_seconds" >&2
 }
 
+# What assimp reads needs a build that asks for it.
+formats() {
+  say "Building with assimp and reading its formats"
+  cmake -S . -B build/assimp -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DLIGHTWELL_WERROR=ON \
+    -DLIGHTWELL_ASSIMP=ON >build/assimp.log 2>&1 || { cat build/assimp.log >&2; exit 1; }
+  ninja -C build/assimp --quiet scene_test >&2
+  build/assimp/bin/scene_test --gtest_brief=1 --gtest_filter='*ImportAssimp*' >&2
+}
+
 toolchains() {
   say "Running the browser's slow tests"
   node --test --test-concurrency=1 tests/e2e/slow/*.test.mjs >&2
@@ -93,10 +102,10 @@ shared() {
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(style sanitizers fuzz soak toolchains blender package shared)
+[ $# -gt 0 ] || parts=(style sanitizers fuzz soak formats toolchains blender package shared)
 for part in "${parts[@]}"; do
   case $part in
-    style | sanitizers | fuzz | soak | toolchains | blender | package | shared) "$part" ;;
+    style | sanitizers | fuzz | soak | formats | toolchains | blender | package | shared) "$part" ;;
     *) sed -n 2,6p "$0" >&2; exit 2 ;;
   esac
 done

@@ -162,6 +162,7 @@ Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions opt
   for (BakedGrid& baked : grids) {
     baked.estimated_error = judge.error(all);
     baked.estimate = judge.errors(all);
+    baked.dark = judge.dark();
   }
   statistics.invalid_nodes += static_cast<size_t>(std::count(all.valid.begin(), all.valid.end(), 0));
   return grids;
@@ -208,6 +209,7 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   }
   statistics.estimated_error = grids.front().estimated_error;
   statistics.estimate = grids.front().estimate;
+  statistics.dark = grids.front().dark;
   statistics.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return grids;
 }

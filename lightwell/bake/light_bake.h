@@ -43,6 +43,7 @@ struct BakedGrid {
   /// (docs/light.md section 4), and the same of each kind.
   float estimated_error = 0;
   ErrorEstimate estimate{};
+  bool dark = false;  ///< next to no light of any group reaches what is seen
 };
 
 /// The grids with what they hold, in the same order.
@@ -55,6 +56,7 @@ struct LightBakeStatistics {
   size_t invalid_nodes = 0;
   float estimated_error = 0;  ///< of the first grid
   ErrorEstimate estimate{};
+  bool dark = false;
   /// Why the first grid was divided no further; nothing of a regular one.
   std::optional<Refinement> refinement;
 };

@@ -17,6 +17,9 @@ constexpr float most_insides = 0.25f, most_buried = 0.5f;
 /// One that sees next to nothing but backs is outside of what the scene is about: under a floor that is a sheet.
 constexpr float most_behind = 0.9f;
 
+/// Of the mean of all places: what is darker on the whole is a room that no light enters, and its errors are not seen.
+constexpr double least_share = 0.01;
+
 /// As often the points' rays are taken as their noise asks for.
 constexpr int most_passes = 16;
 
@@ -55,6 +58,9 @@ class TestPoints::Estimate {
       }
     }
   }
+
+  /// Whether or not it is seen.
+  Vec3f irradiance() const { return (halves_[0] + halves_[1]) / (2.0f * static_cast<float>(passes_)); }
 
   /// Dark where nobody sees it.
   Point point() const {
@@ -97,7 +103,12 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
         [&] { return progress.cancelled(); });
     if (progress.cancelled()) return fail(ErrorKind::cancelled, "light", "cancelled");
     points.clear();
-    for (const Estimate& estimate : estimates) points.push_back(estimate.point());
+    double sum = 0;
+    for (const Estimate& estimate : estimates) {
+      points.push_back(estimate.point());
+      sum += static_cast<double>(brightness(estimate.irradiance()));
+    }
+    test.all_ = sum / (3 * static_cast<double>(count));
     keep_lit(points);
     if (test.noise() <= options.most_noise || std::chrono::steady_clock::now() >= options.deadline) break;
   }
@@ -113,13 +124,10 @@ void TestPoints::keep_lit(std::vector<Point>& points) {
 }
 
 float TestPoints::noise() const {
-  double variance = 0, sum = 0;
-  for (const Point& point : points_) {
-    variance += static_cast<double>(brightness(point.variance));
-    sum += static_cast<double>(brightness(point.irradiance));
-  }
-  const double count = 3 * static_cast<double>(points_.size());
-  return sum > 0 ? static_cast<float>(std::sqrt(variance / count) * count / sum) : 0;
+  if (points_.empty()) return 0;
+  double variance = 0;
+  for (const Point& point : points_) variance += static_cast<double>(brightness(point.variance));
+  return static_cast<float>(std::sqrt(variance / (3 * static_cast<double>(points_.size()))) / size());
 }
 
 double TestPoints::square(const LightGrid& grid, const Point& point) {
@@ -127,10 +135,18 @@ double TestPoints::square(const LightGrid& grid, const Point& point) {
   return static_cast<double>(dot(difference, difference) - brightness(point.variance));
 }
 
-double TestPoints::size() const {
+double TestPoints::mean() const {
+  if (points_.empty()) return 0;
   double sum = 0;
   for (const Point& point : points_) sum += static_cast<double>(brightness(point.irradiance));
-  return sum > 0 ? sum / (3 * static_cast<double>(points_.size())) : 1;
+  return sum / (3 * static_cast<double>(points_.size()));
+}
+
+bool TestPoints::dark() const { return mean() < least_share * all_; }
+
+double TestPoints::size() const {
+  const double size = dark() ? all_ : mean();
+  return size > 0 ? size : 1;
 }
 
 template <typename Chosen>
@@ -170,10 +186,10 @@ std::vector<TestPoints::Excess> TestPoints::excess(const LightGrid& grid) const 
 }
 
 float TestPoints::mean_error(const LightGrid& grid) const {
-  double differences = 0, sum = 0;
+  if (points_.empty()) return 0;
+  double differences = 0;
   for (const Excess& point : excess(grid)) differences += static_cast<double>(point.error);
-  for (const Point& point : points_) sum += static_cast<double>(brightness(point.irradiance));
-  return static_cast<float>(sum > 0 ? differences / sum : differences);
+  return static_cast<float>(differences / (3 * static_cast<double>(points_.size())) / size());
 }
 
 float TestPoints::best_offset(LightGrid grid) const {

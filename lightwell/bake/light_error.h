@@ -42,8 +42,9 @@ class TestPoints {
 
   /// The root mean square difference of a grid at the points, without the noise of the gathered light, as a share of
   /// the mean irradiance. Points that next to no light reaches, below 3 % of what a tenth of all points have at
-  /// least, say nothing of what is seen, and are left out. Where no point is lit it is
-  /// the difference itself, W/m2. Never less than what the noise hides, which is 0 only where there is none.
+  /// least, say nothing of what is seen, and are left out. Where they are dark() it is a share of the light of all
+  /// places, seen or not, and where there is none the difference itself, W/m2. Never less than what the noise hides,
+  /// which is 0 only where there is none.
   float error(const LightGrid& grid) const;
   /// The same of each kind of points alone, as a share of the mean irradiance of all; 0 where there are none.
   ErrorEstimate errors(const LightGrid& grid) const;
@@ -54,6 +55,9 @@ class TestPoints {
   float badness(const LightGrid& grid) const { return std::sqrt(mean_error(grid) * error(grid)); }
   /// The root mean square noise of the gathered light, as a share of the mean irradiance.
   float noise() const;
+  /// Whether next to no light reaches what is seen: less than a hundredth of what there is in the mean of all places,
+  /// those that nobody sees among them, such as the outside of a room without an opening.
+  bool dark() const;
   /// Of a few normal offsets, in cells of each level, the one with which the grid errs least: small where nodes stand
   /// well, larger where walls are thinner than a cell.
   float best_offset(LightGrid grid) const;
@@ -78,9 +82,12 @@ class TestPoints {
   static void keep_lit(std::vector<Point>& points);
   /// The squared difference of a grid at a point beyond the noise of the gathered light, summed over the colours.
   static double square(const LightGrid& grid, const Point& point);
-  /// The mean irradiance of a colour; 1 where no point is lit.
+  /// The mean irradiance of a colour, W/m2.
+  double mean() const;
+  /// What errors are shares of, W/m2.
   double size() const;
   std::vector<Point> points_;
+  double all_ = 0;  ///< the mean irradiance of a colour at all places, seen or not, W/m2
 };
 
 }  // namespace lightwell

@@ -186,6 +186,8 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   if (bake.dark)
     bake.report.warn("no light reaches the free space of the scene: its light grid is black" +
                      reason_of_darkness(world));
+  else if (bake.light_statistics.dark)
+    bake.report.warn("next to no light reaches the fronts of surfaces" + reason_of_darkness(world));
   for (size_t i = 0; i < all.size(); i++) all[i].grid = &bake.field.layers()[i].grid;
   bake.light.grids = std::move(all);
   bake.light.exposure = choose_exposure(world, camera, bake.field, contained, options.scene.threads);
@@ -224,6 +226,14 @@ std::string name_of(Refinement refinement) {
   return {};
 }
 
+/// Of the kinds of points that there are: an error is never 0.
+nlohmann::ordered_json estimate_figures(const ErrorEstimate& estimate) {
+  nlohmann::ordered_json figures = {{"surface", nullptr}, {"free", nullptr}};
+  if (estimate.surface > 0) figures["surface"] = estimate.surface;
+  if (estimate.free > 0) figures["free"] = estimate.free;
+  return figures;
+}
+
 /// What was chosen for each grid.
 nlohmann::ordered_json grid_figures(const LightField::Layer& layer) {
   const LightGrid& grid = layer.grid;
@@ -257,8 +267,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
         {"light", bake.pack_statistics.light_bytes},
         {"texture", bake.pack_statistics.texture_bytes}}},
       {"estimated_error", bake.light_statistics.estimated_error},
-      {"estimate",
-       {{"surface", bake.light_statistics.estimate.surface}, {"free", bake.light_statistics.estimate.free}}},
+      {"estimate", estimate_figures(bake.light_statistics.estimate)},
       {"warnings", bake.report.warnings}};
   // Of no light there is nothing to be wrong by, and a 0 would look like praise.
   if (bake.dark) figures["estimated_error"] = figures["estimate"] = nullptr;

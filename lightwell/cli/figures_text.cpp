@@ -64,6 +64,7 @@ std::string value_text(const Figures& value, Unit unit) {
     return text;
   }
   for (const auto& [key, item] : value.items()) {
+    if (item.is_null()) continue;
     const Meaning meaning = meaning_of(key, unit);
     text += (text.empty() ? "" : ", ") + meaning.name + " " + value_text(item, meaning.unit);
   }

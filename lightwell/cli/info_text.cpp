@@ -30,8 +30,14 @@ std::string grid_text(const Figures& grid) {
             grouped(grid["all_nodes"]) + " nodes in all, ";
   text += short_number(grid["bytes_per_node"]) + " bytes a node, light: " + joined(grid["contains"], ", ");
   if (grid.contains("group")) text += ", group " + grid["group"].get<std::string>();
-  return text + ", estimated error " + short_number(100 * grid["estimate"]["surface"].get<double>()) +
-         " % on surfaces, " + short_number(100 * grid["estimate"]["free"].get<double>()) + " % in free space";
+  const char* before = ", estimated error ";
+  for (const auto& [kind, where] : {std::pair{"surface", "on surfaces"}, {"free", "in free space"}}) {
+    const double error = grid["estimate"][kind].get<double>();
+    if (error <= 0) continue;  // there were no points of the kind
+    text += before + short_number(100 * error) + " % " + where;
+    before = ", ";
+  }
+  return text;
 }
 
 // The unit of a member of a lamp (docs/format.md).

@@ -9,7 +9,7 @@ namespace lightwell {
 /// Makes the intensities of a document's lamps (KHR_lights_punctual) radiometric, as those of its emissive surfaces
 /// are: photometric ones are divided by 683 lm/W. What is `automatic` is told by the file: Blender's exporter
 /// multiplies watts by that number and leaves emission strengths as they are. `report` is told of a choice that the
-/// file made.
+/// file made, and of strong lamps beside emission where the file tells nothing.
 void make_lamps_radiometric(Document& document, LampUnits units, Report& report);
 
 }  // namespace lightwell

@@ -64,7 +64,7 @@ ObjMaterial material_of(const tinyobj::material_t& material, size_t folder) {
 std::string take_some(std::string_view& text) {
   constexpr size_t enough = 64 << 10;
   const size_t next = text.size() > enough ? text.find("\nnewmtl ", enough) : text.npos;
-  const std::string some(text.substr(0, next == text.npos ? next : next + 1));
+  std::string some(text.substr(0, next == text.npos ? next : next + 1));
   text.remove_prefix(some.size());
   return some;
 }

@@ -61,15 +61,16 @@ Vec2f sample_triangle(Random& random) {
 }
 
 Distribution::Distribution(const std::vector<float>& weights) {
-  cumulative_.reserve(weights.size());
-  double sum = 0;
-  for (const float weight : weights) cumulative_.push_back(sum += static_cast<double>(weight));
+  reserve(weights.size());
+  for (const float weight : weights) add(static_cast<double>(weight));
 }
 
-size_t Distribution::sample(Random& random) const {
-  const double target = random.bits() * 0x1p-32 * total();
-  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), target);
-  return static_cast<size_t>(found - cumulative_.begin());
+Distribution::Place Distribution::at(double share) const {
+  const double target = share * total();
+  // Rounding may take a share of nearly 1 to the end.
+  const auto found = std::min(std::upper_bound(cumulative_.begin(), cumulative_.end(), target), cumulative_.end() - 1);
+  const double below = found == cumulative_.begin() ? 0 : *(found - 1), weight = *found - below;
+  return {static_cast<size_t>(found - cumulative_.begin()), weight > 0 ? (target - below) / weight : 0};
 }
 
 float Distribution::probability(size_t index) const {

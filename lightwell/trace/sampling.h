@@ -59,12 +59,23 @@ class Distribution {
   /// The weights must be finite and not negative.
   explicit Distribution(const std::vector<float>& weights);
 
+  void reserve(size_t entries) { cumulative_.reserve(entries); }
+  /// Appends an entry; its weight must be finite and not negative.
+  void add(double weight) { cumulative_.push_back(total() + weight); }
+
   /// The sum of the weights; when it is 0 there is nothing to sample.
   double total() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
   size_t size() const { return cumulative_.size(); }
   /// Samples an index; the total must not be 0. Draws 32 bits, so that all entries of large maps and meshes can be
   /// chosen.
-  size_t sample(Random& random) const;
+  size_t sample(Random& random) const { return at(random.bits() * 0x1p-32).index; }
+  /// The entry up to which a share of the total goes, 0 to 1 without it, and how much of the entry is below, as a share
+  /// of it: by that a distribution within the entry can be sampled.
+  struct Place {
+    size_t index = 0;
+    double share = 0;
+  };
+  Place at(double share) const;
   /// The probability of an index.
   float probability(size_t index) const;
 

@@ -108,6 +108,28 @@ TEST(TestPoints, NeverTellOfNoError) {
   }
 }
 
+// A closed room under a sky: its fronts are black, and the light outside, which nobody sees, is what little errors are
+// held against.
+TEST(TestPoints, KnowARoomThatNoLightEnters) {
+  Scene scene = scene_of(room({{0, 0, 0}}, {{2, 1.5f, 3}}), lambertian(0.5f));
+  scene.environment.radiance = Vec3f::filled(1);
+  const auto world = world_of(scene);
+  Progress silent;
+  const FreeSpace space = FreeSpace::survey(*world, {}, silent).value();
+  const Box3f bounds = world->surfaces().bounds();
+  const Box3f box{bounds.lo - Vec3f::filled(1), bounds.hi + Vec3f::filled(1)};
+  const std::vector<Vec3f> middle{box.center()};
+  const SurfaceCache cache = SurfaceCache::build(*world, middle, {.region = box, .cell = 0.2f}, silent).value();
+  const GatheredLight light({*world, space, cache, box}, {});
+  const TestPoints test = TestPoints::gather(light, {.surface_points = 200, .free_points = 200}, silent).value();
+  EXPECT_TRUE(test.dark());
+  Furnace furnace;
+  LightGrid grid = furnace.grid(1e-6f, 1e-6f);
+  EXPECT_LT(test.error(grid), 0.01f) << "a millionth of the light outside";
+  EXPECT_GT(test.error(furnace.grid(1, 1)), 1) << "a leak of all of it";
+  EXPECT_FALSE(TestPoints::gather(furnace.light, {}, furnace.silent).value().dark());
+}
+
 TEST(TestPoints, AreTheSameForAnyNumberOfThreads) {
   Furnace furnace;
   const LightGrid grid = furnace.grid(1, 0.9f);

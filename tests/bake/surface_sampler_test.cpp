@@ -32,13 +32,15 @@ Mesh fan() {
   return mesh;
 }
 
-// Faces of unlike areas, of a mesh that is placed three times, turned, stretched and mirrored: each by its area in the
-// scene. Four strips of a face along one side, of 7, 5, 3 and 1 sixteenths of its area, tell that it is sampled evenly.
+// Faces of unlike areas, of a mesh that is placed four times, stretched, mirrored, turned and enlarged: each by its area
+// in the scene. Four strips of a face along one side, of 7, 5, 3 and 1 sixteenths of its area, tell that it is sampled evenly.
 TEST(SurfaceSampler, ChoosesPointsByArea) {
   Scene scene = scene_of(fan(), lambertian(0.5f));
   const auto place = [&](Transform to_scene) { scene.instances.push_back({0, to_scene, -1}); };
   place(Transform::translation(Vec3d{{0, 5, 0}}) * Transform::scaling(Vec3d{{0.5, 1, 3}}));
   place(Transform::translation(Vec3d{{0, -5, 0}}) * Transform::scaling(Vec3d{{-1, 1, 1}}));
+  place(Transform::translation(Vec3d{{0, -9, 0}}) * Transform::rotation({{0.6, 0, 0, 0.8}}) *
+        Transform::scaling(Vec3d::filled(1.5)));
   add(scene, quad({{-1, 9, -1}}, {{0, 1, 2}}, {{2, 0, 1}}), lambertian(0.5f));
   const auto surfaces = traced(scene);
 

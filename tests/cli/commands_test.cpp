@@ -498,6 +498,12 @@ TEST_F(Commands, ASunThatMeetsOnlyOutsidesIsSaid) {
             run("bake " + path("dark.gltf") + " -o " + path("dark.lw.glb") + json_options).out)["estimated_error"]
             .is_null());
   }
+  write("dark.gltf", room_gltf(R"({"type":"directional","intensity":3})", R"(,
+      {"rotation":[-0.7071,0,0,0.7071],"extensions":{"KHR_lights_punctual":{"light":0}}})"));
+  const Outcome outcome = run("bake " + path("dark.gltf") + " -o " + path("dark.lw.glb") +
+                              " --environment 1,1,1 --grid 6 --photons 20k --json --quiet");
+  EXPECT_NE(outcome.out.find("the sun and the sky meet only outsides: the rooms have no opening"), std::string::npos)
+      << outcome.out;
 }
 
 TEST_F(Commands, ABlackPictureIsSaid) {

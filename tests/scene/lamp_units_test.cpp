@@ -58,6 +58,25 @@ TEST(LampUnits, OfAFileThatWasReadBeforeStay) {
   EXPECT_NEAR(intensity_of(document), watts, rounding * watts);
 }
 
+// Who edits a file of Blender's with another program has lamps in candela, and nothing tells of it but their size.
+TEST(LampUnits, ThatAreLikelyCandelaBesideEmissionAreAdvisedOn) {
+  struct Case {
+    double intensity;
+    std::vector<double> emission;
+    size_t lines;
+  };
+  for (const Case& c : {Case{5435, {0, 1, 0}, 1}, Case{5435, {0, 0, 0}, 0}, Case{5435, {}, 0}, Case{40, {1, 1, 1}, 0}}) {
+    Document document = lamp_of_100_watts("glTF-Transform");
+    document.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = c.intensity;
+    document.json["materials"][0]["emissiveFactor"] = c.emission;
+    Report report;
+    make_lamps_radiometric(document, LampUnits::automatic, report);
+    ASSERT_EQ(report.warnings.size(), c.lines);
+    for (const std::string& line : report.warnings)
+      EXPECT_NE(line.find("--lamp-units photometric"), std::string::npos) << line;
+  }
+}
+
 TEST(LampUnits, NothingIsSaidOfAFileWithoutLamps) {
   Document document;
   document.json["asset"]["generator"] = blender;

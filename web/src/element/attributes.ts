@@ -19,6 +19,8 @@ export interface LightwellViewAttributes {
   strategy?: 'interleave' | 'geometry' | 'light';
   wireframe?: boolean | '';
   'auto-rotate'?: boolean | '';
+  animation?: boolean | string;
+  compare?: boolean | number | string;
   measure?: boolean | '';
   'raking-light'?: boolean | string;
   'any-three'?: boolean | '';
@@ -40,6 +42,8 @@ export const DRAWN_ATTRIBUTES = [
   'wireframe',
   'aria-label',
   'auto-rotate',
+  'animation',
+  'compare',
   'measure',
   'raking-light',
 ];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { beginsWith } from './attribute_life.js';
 import type { LightwellView } from './lightwell_view.js';
+import { whenMotionIsSeen } from './motion.js';
 
 /** Without input, in milliseconds. */
 const REST = 3000;
@@ -13,7 +14,6 @@ const LONGEST_FRAME = 0.1;
 export function autoRotate(view: LightwellView): void {
   const end = beginsWith(view, 'auto-rotate');
   if (end === null || end.aborted) return;
-  const still = matchMedia('(prefers-reduced-motion: reduce)');
   let [seen, held, timer, frame, time] = [false, false, 0, 0, 0];
   const turn = () => {
     const now = performance.now();
@@ -30,7 +30,7 @@ export function autoRotate(view: LightwellView): void {
   };
   const wait = () => {
     stop();
-    if (!seen || held || still.matches) return;
+    if (!seen || held) return;
     timer = window.setTimeout(() => {
       time = performance.now();
       turn();
@@ -47,14 +47,9 @@ export function autoRotate(view: LightwellView): void {
   listen(view, ['pointerdown'], hold(true));
   listen(window, ['pointerup', 'pointercancel'], hold(false));
   listen(view, ['wheel', 'keydown', 'load'], wait);
-  listen(still, ['change'], wait);
-  const sight = new IntersectionObserver((entries) => {
-    seen = entries.at(-1)!.isIntersecting;
+  whenMotionIsSeen(view, end, (isSeen) => {
+    seen = isSeen;
     wait();
   });
-  sight.observe(view);
-  end.addEventListener('abort', () => {
-    stop();
-    sight.disconnect();
-  });
+  end.addEventListener('abort', stop);
 }

@@ -4,7 +4,9 @@
 // has, and works on what it is given (docs/decisions/008-size-of-the-page.md).
 import type { DirectionalLight } from 'three';
 import type { parseQuantity, parseView } from './attributes.js';
+import { animate } from './animation.js';
 import { autoRotate } from './auto_rotate.js';
+import { compare } from './compare.js';
 import type { LightwellView } from './lightwell_view.js';
 import { measure } from './measure.js';
 import { rakingLight } from './raking_light.js';
@@ -23,8 +25,10 @@ export interface Kit {
 
 /** What begins when an attribute says so. */
 export const attributes: Record<string, (view: LightwellView, kit: Kit) => void> = {
+  animation: animate,
   'auto-rotate': autoRotate,
   'camera-controls': walk,
+  compare,
   measure,
   'raking-light': rakingLight,
 };

@@ -33,7 +33,7 @@ const KIT = { DirectionalLight, parseQuantity, parseView };
  * near the screen), `camera-controls` ("always": swipes and the wheel never scroll the page; "walk"), `camera-orbit` ("30deg 75deg 4m":
  * azimuth, angle from the vertical, distance), `camera-target` ("0m 1m 0m"), `field-of-view` ("45deg"), `exposure` (stops; by
  * default the pack's), `environment-background` ("sharp", "blurred", "none"), `light` ("all", "off", "direct", "indirect"), `shadows` ("soft", "hard", "off"), `tone` ("neutral", "none"), `strategy`
- * ("interleave", "geometry", "light"), `wireframe`, `auto-rotate`, `measure`, `raking-light`, `any-three`, `max-image-megapixels`.
+ * ("interleave", "geometry", "light"), `wireframe`, `auto-rotate`, `animation` (a name, or none for the first), `compare` (0 to 1), `measure`, `raking-light`, `any-three`, `max-image-megapixels`.
  *
  * Events: `load` when the scene is there, `firstframe`, `frame` after each, `progress` (detail: geometry, light, bytes, rate ...), `connection`
  * (detail.state: "streaming", "waiting", "complete"), `complete`, `camera-change`, `error` (detail: reason, message).

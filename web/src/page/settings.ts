@@ -12,6 +12,7 @@ const HOW_TO: Record<string, string> = {
   walk: 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.',
   measure: 'Click two points; escape ends.',
   'raking-light': 'Drag the lamp in the upper corner.',
+  compare: 'Drag the line: to its left there is no bounced light.',
 };
 /** Stops to both sides of none, and of the pack's own exposure. */
 const LEEWAY = 4;
@@ -32,7 +33,16 @@ export function bindSettings(view: LightwellView, three: Three): void {
   bindLightGroups(view);
   bindCameras(view);
   bindSharing(view);
-  for (const attribute of ['wireframe', 'measure', 'raking-light']) bindSwitch(view, attribute);
+  for (const attribute of ['wireframe', 'measure', 'compare', 'raking-light', 'animation']) bindSwitch(view, attribute);
+  showWhereAnimated(view);
+}
+
+/** The switch of what moves is there where something does. */
+function showWhereAnimated(view: LightwellView): void {
+  const switched = document.querySelector('#animation')!.parentElement!;
+  const show = () => (switched.hidden = !view.pack?.opening.gltf.animations.length);
+  view.on('load', show);
+  show();
 }
 
 /** A box that is ticked while the element has the attribute of its name. */
