@@ -32,8 +32,9 @@ Mesh fan() {
   return mesh;
 }
 
-// Faces of unlike areas, of a mesh that is placed four times, stretched, mirrored, turned and enlarged: each by its area
-// in the scene. Four strips of a face along one side, of 7, 5, 3 and 1 sixteenths of its area, tell that it is sampled evenly.
+// Faces of unlike areas, of a mesh that is placed four times, stretched, mirrored, turned and enlarged: each by its
+// area in the scene. Four strips of a face along one side, of 7, 5, 3 and 1 sixteenths of its area, tell that it is
+// sampled evenly.
 TEST(SurfaceSampler, ChoosesPointsByArea) {
   Scene scene = scene_of(fan(), lambertian(0.5f));
   const auto place = [&](Transform to_scene) { scene.instances.push_back({0, to_scene, -1}); };
