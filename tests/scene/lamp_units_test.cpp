@@ -65,7 +65,8 @@ TEST(LampUnits, ThatAreLikelyCandelaBesideEmissionAreAdvisedOn) {
     std::vector<double> emission;
     size_t lines;
   };
-  for (const Case& c : {Case{5435, {0, 1, 0}, 1}, Case{5435, {0, 0, 0}, 0}, Case{5435, {}, 0}, Case{40, {1, 1, 1}, 0}}) {
+  for (const Case& c :
+       {Case{5435, {0, 1, 0}, 1}, Case{5435, {0, 0, 0}, 0}, Case{5435, {}, 0}, Case{40, {1, 1, 1}, 0}}) {
     Document document = lamp_of_100_watts("glTF-Transform");
     document.json["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] = c.intensity;
     document.json["materials"][0]["emissiveFactor"] = c.emission;
