@@ -5,6 +5,7 @@
 KIND  spread      COUNT boxes side by side, a primitive and a node each, of one material
       coincident  the same boxes all in one place
       materials   boxes side by side with a material each
+      instances   COUNT instances side by side of one mesh of a million triangles
       obj         an OBJ of one triangle and its own material each, with FILE.mtl beside it
 """
 import json
@@ -68,6 +69,22 @@ def write_boxes(count, file, coincident, own_materials):
     glb.write(file)
 
 
+def write_instances(count, file):
+    cells = 708  # on each side: 1,002,528 triangles
+    height = lambda x, z: 0.15 * math.sin(9 * x) * math.cos(7 * z) + 0.02 * math.sin(90 * x * z)
+    steps = [i / cells - 0.5 for i in range(cells + 1)]
+    faces = []
+    for i in range(cells):
+        for j in range(cells):
+            a, b = i * (cells + 1) + j, (i + 1) * (cells + 1) + j
+            faces += [(a, a + 1, b), (b, a + 1, b + 1)]
+    glb = Glb()
+    glb.json['materials'].append({'pbrMetallicRoughness': {'metallicFactor': 0}})
+    glb.mesh([(x, height(x, z), z) for x in steps for z in steps], faces, 0)
+    glb.json['nodes'] = [{'mesh': 0, 'translation': [x, 0, z]} for x, z in (place(number, count) for number in range(count))]
+    glb.write(file)
+
+
 def write_obj(count, file):
     materials = os.path.splitext(file)[0] + '.mtl'
     with open(materials, 'w') as out:
@@ -83,10 +100,12 @@ def write_obj(count, file):
             out.write(f'v {x} 0 {z}\nv {x + 1} 0 {z}\nv {x} 0 {z + 1}\nusemtl m{number}\nf -3 -1 -2\n')
 
 
-if len(sys.argv) != 4 or sys.argv[1] not in ('spread', 'coincident', 'materials', 'obj'):
+if len(sys.argv) != 4 or sys.argv[1] not in ('spread', 'coincident', 'materials', 'instances', 'obj'):
     sys.exit(__doc__)
 kind, count, file = sys.argv[1], int(sys.argv[2]), sys.argv[3]
 if kind == 'obj':
     write_obj(count, file)
+elif kind == 'instances':
+    write_instances(count, file)
 else:
     write_boxes(count, file, kind == 'coincident', kind == 'materials')

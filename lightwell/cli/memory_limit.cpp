@@ -18,8 +18,7 @@ namespace lightwell {
 namespace {
 
 // Measured: of 871,414 faces of a scan 180 MB are needed, of 1,200,000 in 100,000 boxes 700 MB.
-constexpr uint64_t bytes_of_mesh_face = 100;   // Embree's tree, the order of progressive transmission
-constexpr uint64_t bytes_of_placed_face = 12;  // its area and its place among all, by which surfaces are sampled
+constexpr uint64_t bytes_of_mesh_face = 100;  // Embree's tree, the order of progressive transmission
 constexpr uint64_t bytes_of_instance = 1024;
 
 /// For the undoing of what was begun when memory ended: destructors of JSON allocate a list of what they destroy, and
@@ -66,8 +65,6 @@ uint64_t machine_memory() {
 uint64_t least_memory(const Scene& scene) {
   uint64_t bytes = bytes_of_instance * scene.instances.size();
   for (const Primitive& primitive : scene.primitives) bytes += bytes_of_mesh_face * primitive.mesh.faces.size();
-  for (const Instance& instance : scene.instances)
-    bytes += bytes_of_placed_face * scene.primitives[static_cast<size_t>(instance.primitive)].mesh.faces.size();
   return bytes;
 }
 

@@ -19,6 +19,8 @@ namespace {
 
 constexpr size_t max_instances = size_t(1) << 22;
 constexpr size_t max_faces = size_t(1) << 27;
+/// With every instance of a face: some stages look at each of them, for hundreds of nanoseconds.
+constexpr size_t max_placed_faces = size_t(1) << 31;
 
 /// The expansion that a document's bytes are allowed, so that a small file that uses the same data again and again does
 /// not fill the memory: a corner or an instance takes a byte or more, and some may be shared.
@@ -329,6 +331,10 @@ class Importer {
   Result<void> place_instances(int node, const std::vector<Transform>& to_scene) {
     if (scene_.instances.size() + to_scene.size() > max_instances)
       return fail(ErrorKind::limit, "nodes", "place more than " + std::to_string(max_instances) + " instances");
+    placed_faces_ += scene_.primitives.back().mesh.faces.size() * to_scene.size();
+    if (placed_faces_ > max_placed_faces)
+      return fail(ErrorKind::limit, "nodes",
+                  "place more than " + std::to_string(max_placed_faces) + " triangles, counted with every instance");
     for (const Transform& transform : to_scene)
       scene_.instances.push_back({static_cast<int>(scene_.primitives.size()) - 1, transform, node});
     return {};
@@ -378,7 +384,7 @@ class Importer {
   std::vector<MeshUse> uses_;
   std::vector<std::pair<int, Transform>> lamps_and_cameras_;
   Allowance allowed_;
-  size_t faces_ = 0, corners_ = 0, placed_ = 0;
+  size_t faces_ = 0, corners_ = 0, placed_ = 0, placed_faces_ = 0;
   Tally flat_, hidden_, lost_joints_, undrawable_;
 };
 

@@ -11,6 +11,8 @@ namespace {
 
 constexpr uint64_t longest_file = 2u << 20;
 constexpr size_t most_bytes = 16u << 20;
+/// Of a file's place in the table, be its content worth compressing or not.
+constexpr size_t bytes_of_entry = 128;
 
 /// Empty when the file cannot be read or compressed.
 std::string gzip(const OpenFile& file) {

@@ -17,8 +17,8 @@ constexpr double least_left = 0.5, most_strays = 0.05;
 /// Of the rest's extent: how far away strays are.
 constexpr float least_gap = 2;
 constexpr int most_rounds = 16;
-/// Faces of one instance are told apart up to this number, more of them in runs.
-constexpr size_t most_parts = 1 << 20;
+/// Faces are told apart up to about this number, with every instance, more of them in runs: a part takes 32 bytes.
+constexpr size_t most_parts = 1 << 22;
 
 /// Faces that lie in one box.
 struct Part {
@@ -53,11 +53,16 @@ std::set<uint32_t> bulbs_of(const TraceScene& scene) {
 
 std::vector<Part> parts_of(const TraceScene& scene) {
   const std::set<uint32_t> bulbs = bulbs_of(scene);
+  const auto counts = [&](uint32_t instance) { return scene.traced(instance) && !bulbs.contains(instance); };
+  const auto instances = static_cast<uint32_t>(scene.scene().instances.size());
+  size_t all = 0;
+  for (uint32_t i = 0; i < instances; i++)
+    if (counts(i)) all += scene.mesh(i).faces.size();
+  const size_t run = (all + most_parts - 1) / most_parts;
   std::vector<Part> parts;
-  for (uint32_t i = 0; i < scene.scene().instances.size(); i++) {
-    if (!scene.traced(i) || bulbs.contains(i)) continue;
+  for (uint32_t i = 0; i < instances; i++) {
+    if (!counts(i)) continue;
     const size_t faces = scene.mesh(i).faces.size();
-    const size_t run = (faces + most_parts - 1) / most_parts;
     for (size_t face = 0; face < faces; face++) {
       if (face % run == 0) parts.emplace_back();
       for (const Vec3f& corner : scene.corners(i, static_cast<uint32_t>(face))) parts.back().box.extend(corner);

@@ -147,6 +147,20 @@ TEST(ImportGltf, RefusesMoreThanTheFileCanHold) {
   EXPECT_EQ(drawn.error().message(), "meshes[0]: the scene has more corners than the file can hold");
 }
 
+// Thousands of instances of a mesh of many faces share it, but not the time that each takes.
+TEST(ImportGltf, RefusesMoreTrianglesThanCanBeLookedAt) {
+  Document document = scene_document(R"([{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {}}}])", {0});
+  DocumentBuilder builder(document);
+  const int moved = builder.accessor(std::vector<Vec3f>(60000), false);
+  const int corners = builder.indices(std::vector<Face>(40000, {0, 1, 2}), 3);
+  document.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", moved}};
+  document.json["meshes"][0]["primitives"][0]["indices"] = corners;
+  Report report;
+  const auto refused = scene_from_document(document, "", report);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message(), "nodes: place more than 2147483648 triangles, counted with every instance");
+}
+
 TEST(ImportGltf, AnimatedNodesStandWhereTheFileHasThem) {
   Document document = scene_document(R"([{"children": [1], "translation": [1, 0, 0]}, {"mesh": 0}])", {0});
   DocumentBuilder(document).add("animations",
