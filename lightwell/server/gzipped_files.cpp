@@ -41,8 +41,9 @@ std::shared_ptr<const std::string> GzippedFiles::content(const OpenFile& file) {
   if (known != contents_.end()) return known->second;
   std::string packed = gzip(file);
   const bool worth_it = !packed.empty() && packed.size() < file.length();
-  const auto content = worth_it ? std::make_shared<const std::string>(std::move(packed)) : nullptr;
-  const size_t bytes = worth_it ? content->size() : sizeof(contents_);
+  std::shared_ptr<const std::string> content;
+  if (worth_it) content = std::make_shared<const std::string>(std::move(packed));
+  const size_t bytes = bytes_of_entry + (worth_it ? content->size() : 0);
   // What was kept for files that have changed since goes, too.
   if (bytes_ + bytes > most_bytes) {
     contents_.clear();

@@ -9,7 +9,7 @@ import { forAllTests, forTest } from './lifetime.mjs';
 import { bake, temporaryFolder } from './packs.mjs';
 import { room, sphere, writeScene } from './scenes.mjs';
 import { startStaticServer } from './static_server.mjs';
-import { elementPage } from './test_page.mjs';
+import { elementPage, viewerPage } from './test_page.mjs';
 import { complete } from './view.mjs';
 
 const SIZE = { width: 320, height: 180 };
@@ -135,4 +135,18 @@ test('it has the light of where it is', async (t) => {
   const right = await brightness(page, 0.4, RIGHT);
   // By `lightwell probe`, indirect irradiance is half as strong again at the left: 1.43 towards the camera, 1.71 upwards.
   assert.ok(left > right + 10, `${left} at the left, ${right} at the right`);
+});
+
+test('the page has a switch for it where something moves', async (t) => {
+  const server = await forTest(t, startStaticServer({ ...viewerPage('/ball.lw.glb'), '/ball.lw.glb': PACK }));
+  const { page } = await forTest(t, openPage(browser, { width: 900, height: 600 }));
+  await page.goto(server.url);
+  await complete(page);
+  await page.getByText('Settings').click();
+  await page.getByLabel('Animation').check();
+  await page.waitForFunction((rest) => {
+    let moved = false;
+    document.querySelector('lightwell-view').pack.traverse((object) => (moved ||= object.morphTargetInfluences !== undefined && Math.abs(object.position.x - rest) > 0.2));
+    return moved;
+  }, REST);
 });

@@ -195,7 +195,7 @@ test('links that walls block are red lines through the wall', async (t) => {
   assert.deepEqual(errors, []);
 });
 
-test('the switches of measuring and of the raking light follow the element', async (t) => {
+test('the switches of measuring, comparing and of the raking light follow the element', async (t) => {
   const { page, errors } = await openViewer(t, WIDE);
   await complete(page);
   await openSettings(page);
@@ -203,6 +203,12 @@ test('the switches of measuring and of the raking light follow the element', asy
   await page.getByRole('application').waitFor();
   await page.getByLabel('Raking light').uncheck();
   await page.getByRole('application').waitFor({ state: 'detached' });
+  const line = page.getByRole('slider', { name: 'Without baked light' });
+  await page.getByLabel('Compare').check();
+  await line.waitFor();
+  await page.getByLabel('Compare').uncheck();
+  await line.waitFor({ state: 'detached' });
+  assert.equal(await page.getByText('Animation').isVisible(), false, 'nothing moves in this pack');
   await page.getByLabel('Measure').check();
   // The script comes when it is wanted; the cursor tells that it is there.
   await page.waitForFunction(() => document.querySelector('lightwell-view').style.cursor === 'crosshair');
