@@ -72,10 +72,12 @@ Transform local_transform(const Json& node) {
                          numbers<3>(node, "translation", {}));
 }
 
+/// Squares of what is larger leave the range of floats.
+constexpr double largest = 1e30;
+
 /// True when a map takes volume to nothing, or beyond what floats hold. The threshold is what double precision leaves
 /// of a hierarchy whose exact product would be singular.
 bool flattens(const Transform& m) {
-  constexpr double largest = 1e30;
   const double sizes = length(m.x) * length(m.y) * length(m.z);
   return !(std::abs(m.determinant()) > 1e-9 * sizes) || !(sizes < largest) || !(length(m.t) < largest);
 }
@@ -322,6 +324,8 @@ class Importer {
       if (!base) base = joint.t;
       joints[i] = Transform::translation(-*base) * joint * joints[i];
     }
+    if (!(length(*base) < largest))
+      return fail(element_name("nodes", static_cast<size_t>(use.node)), "the joints of its skin are too far away");
     pose.joints = std::move(joints);
     place = {Transform::translation(*base)};
     return {};

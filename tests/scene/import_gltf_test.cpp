@@ -171,6 +171,18 @@ TEST(ImportGltf, AnimatedNodesStandWhereTheFileHasThem) {
   EXPECT_FALSE(scene.primitives[0].deforming);
 }
 
+TEST(ImportGltf, ASkinsJointsStandWhereNumbersReach) {
+  for (const char* far : {"1e39", "1e300"}) {
+    Document document = scene_document(
+        (R"([{"mesh": 0, "skin": 0}, {"translation": [)" + std::string(far) + R"(, 0, 0]}])").c_str(), {0, 1});
+    document.json["skins"] = Json::parse(R"([{"joints": [1]}])");
+    Report report;
+    const auto refused = scene_from_document(document, "", report);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message(), "nodes[0]: the joints of its skin are too far away");
+  }
+}
+
 TEST(ImportGltf, MorphTargetsHaveTheirWeights) {
   Document document = scene_document(
       R"([{"mesh": 0}, {"mesh": 0, "weights": [0, 2]}, {"mesh": 0, "translation": [0, 0, 9]}])", {0, 1, 2});
