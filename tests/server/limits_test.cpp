@@ -126,8 +126,19 @@ std::chrono::duration<double> slowest_answer(uint16_t port) {
   return longest;
 }
 
+// The address sanitizer keeps freed memory and some around each piece, and takes its time for both.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr int with_sanitizer = 4;
+#else
+constexpr int with_sanitizer = 1;
+#endif
+#else
+constexpr int with_sanitizer = 1;
+#endif
+
 // Measured are 2 ms or less; a busy machine needs more.
-constexpr std::chrono::duration<double> promptly = 500ms;
+constexpr std::chrono::duration<double> promptly = with_sanitizer * 500ms;
 
 TEST_F(ServerLimits, ThousandsOfSlowClientsCostLittleAndHoldUpNobody) {
   write_large_pack();
@@ -141,7 +152,7 @@ TEST_F(ServerLimits, ThousandsOfSlowClientsCostLittleAndHoldUpNobody) {
     if (i % 3 == 1) clients.back()->send(ask_for_large);
   }
   EXPECT_LT(slowest_answer(server.port()), promptly);
-  EXPECT_LT(resident() - before, size_t(30) << 20);
+  EXPECT_LT(resident() - before, with_sanitizer * (size_t(30) << 20));
 }
 
 TEST_F(ServerLimits, BeyondTheLimitIdleOnesGo) {
