@@ -186,6 +186,23 @@ Result<void> check_animation(const Json&, const Json& animation, const std::stri
   return check_array(animation, "channels", name);
 }
 
+Result<void> check_skin(const Json&, const Json& skin, const std::string& name, Report&) {
+  return check_array(skin, "joints", name);
+}
+
+/// Checks the lists that extensions add to the document.
+Result<void> check_extension_lists(const Json& json) {
+  constexpr std::pair<const char*, const char*> lists[] = {{"KHR_lights_punctual", "lights"},
+                                                           {"KHR_materials_variants", "variants"}};
+  for (const auto& [name, key] : lists) {
+    const Json& list = member(extension(json, name), key);
+    const bool right =
+        list.is_array() && std::all_of(list.begin(), list.end(), [](const Json& item) { return item.is_object(); });
+    if (!list.is_null() && !right) return fail(name, std::string(key) + " is not an array of objects");
+  }
+  return {};
+}
+
 Result<void> check_each(const Json& json, const char* array, Checker check, Report& report) {
   const Json& items = member(json, array);
   for (size_t i = 0; i < items.size(); i++) LW_CHECK(check(json, items[i], element_name(array, i), report));
@@ -291,6 +308,8 @@ Result<void> check_document(const Json& json, Report& report) {
   LW_CHECK(check_each(json, "nodes", check_node, report));
   LW_CHECK(check_each(json, "scenes", check_scene, report));
   LW_CHECK(check_each(json, "animations", check_animation, report));
+  LW_CHECK(check_each(json, "skins", check_skin, report));
+  LW_CHECK(check_extension_lists(json));
   return check_forest(json);
 }
 
