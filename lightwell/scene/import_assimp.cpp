@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 #include <exception>
 
+#include "lightwell/scene/import_gltf.h"
 #include "lightwell/scene/scene_builder.h"
 
 namespace lightwell {
@@ -42,7 +43,15 @@ Result<Document> assimp_document(Bytes file, const std::filesystem::path& path, 
     LW_TRY(glb, converted(file, ending.empty() ? ending : ending.substr(1)));
     LW_TRY(document, read_document(glb, path.parent_path(), report));
     if (document.json.contains("images")) take_names_of_files(document.json);
-    report.warn("read by assimp");
+    if (ending == ".3mf" || ending == ".3MF") {
+      Orientation of_printers;
+      of_printers.up.axis = 2;
+      of_printers.unit = 0.001f;
+      reorient(document, of_printers);
+      report.warn("read by assimp, in millimetres with z up, as 3MF is unless it says otherwise");
+    } else {
+      report.warn("read by assimp");
+    }
     return document;
   } catch (const std::exception& exception) {
     return fail("assimp", exception.what());
