@@ -2,6 +2,7 @@
 //
 // A line down the picture that the visitor moves: to its left without the baked light, to its right with it.
 import type { Scene, WebGLRenderer } from 'three';
+import { aroundRender } from './around_render.js';
 import { beginsWith } from './attribute_life.js';
 import type { LightwellView } from './lightwell_view.js';
 
@@ -32,14 +33,8 @@ class Line {
   constructor(view: LightwellView, end: AbortSignal) {
     this.#view = view;
     this.#makeBar(end);
-    const { scene } = view;
-    const { onAfterRender } = scene;
-    scene.onAfterRender = (renderer, ...rest) => {
-      onAfterRender.call(scene, renderer, ...rest);
-      if (!this.#dividing) this.#drawWithout(renderer, scene);
-    };
+    aroundRender(view.scene, end, { after: (renderer, scene) => this.#dividing || this.#drawWithout(renderer, scene) });
     end.addEventListener('abort', () => {
-      scene.onAfterRender = onAfterRender;
       this.#bar.remove();
       view.invalidate();
     });

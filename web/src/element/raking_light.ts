@@ -2,6 +2,7 @@
 //
 // A lamp that the visitor holds beside the camera: its light grazes what is looked at, and shows the relief of a scan.
 import type { Camera, DirectionalLight, WebGLRenderer } from 'three';
+import { aroundRender } from './around_render.js';
 import { beginsWith } from './attribute_life.js';
 import type { Kit } from './extras.js';
 import { createHandle } from './lamp_handle.js';
@@ -33,6 +34,8 @@ class RakingLamp {
   /** Where the light comes from, to the right, up and towards the camera. */
   #from: [number, number, number] = [0, 0, 1];
   #frame = 0;
+  /** Under way, one in another: `compare` draws in the middle of a drawing. */
+  #drawings = 0;
 
   constructor(view: LightwellView, lamp: DirectionalLight, end: AbortSignal) {
     this.#view = view;
@@ -43,18 +46,16 @@ class RakingLamp {
     lamp.shadow.bias = -0.0005;
     scene.add(lamp, lamp.target);
     view.shadowRoot!.append(this.#handle.element);
-    const { onBeforeRender, onAfterRender } = scene;
-    scene.onBeforeRender = (renderer, ...rest) => {
-      onBeforeRender.call(scene, renderer, ...rest);
-      renderer.toneMappingExposure *= FILL;
-      this.#follow(renderer, view.camera);
-    };
-    scene.onAfterRender = (renderer, ...rest) => {
-      renderer.toneMappingExposure /= FILL;
-      onAfterRender.call(scene, renderer, ...rest);
-    };
+    aroundRender(scene, end, {
+      before: (renderer) => {
+        if (this.#drawings++ === 0) renderer.toneMappingExposure *= FILL;
+        this.#follow(renderer, view.camera);
+      },
+      after: (renderer) => {
+        if (--this.#drawings === 0) renderer.toneMappingExposure /= FILL;
+      },
+    });
     end.addEventListener('abort', () => {
-      Object.assign(scene, { onBeforeRender, onAfterRender });
       scene.remove(lamp, lamp.target);
       lamp.dispose();
       this.#handle.element.remove();
