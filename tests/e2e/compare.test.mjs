@@ -72,6 +72,35 @@ test('the picture is divided where the value says', async (t) => {
   assert.deepEqual(errors, []);
 });
 
+// Each of them does something around every drawing, and either may end first.
+test('beside the raking light, whichever ends first, all is as it was', async (t) => {
+  const { page, errors } = await open(t);
+  const all = await pixels(page, {});
+  const lamp = (there) => page.evaluate(async (is) => {
+    view.toggleAttribute('raking-light', is);
+    while ((view.shadowRoot.querySelector('[role=application]') !== null) !== is) await new Promise((resolve) => setTimeout(resolve, 50));
+  }, there);
+  // The raking light's coming and going alone leaves what is then the picture: shadows have been drawn anew.
+  await lamp(true);
+  await lamp(false);
+  const again = await pixels(page, {});
+  for (const first of ['compare', 'raking-light']) {
+    if (first === 'raking-light') await lamp(true);
+    await pixels(page, { compare: '0.5' });
+    if (first === 'compare') {
+      await lamp(true);
+      await pixels(page, {});
+      await lamp(false);
+    } else {
+      await lamp(false);
+      await pixels(page, { compare: '0.25' });
+    }
+    assert.equal(differing(await pixels(page, {}), again, 0, SIZE.width), 0, first);
+  }
+  assert.ok(differing(again, all, 0, SIZE.width) < 0.05 * SIZE.width * SIZE.height, 'edges of shadows alone differ');
+  assert.deepEqual(errors, []);
+});
+
 test('the visitor moves the line with the pointer and the keys', async (t) => {
   const { page } = await open(t);
   await page.evaluate(() => view.setAttribute('compare', ''));
