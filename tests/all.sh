@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # What `./run test --all` adds: format and lint, every test under sanitizers (built by Clang) with ten times the seeds, ten
-# minutes of fuzzing, the server under faults, the formats of assimp, the npm package in slow toolchains, the add-on in Blender, the Debian package, and everything in
-# ../shared/data baked, verified and streamed. Expects build/release. FUZZ_SECONDS and SOAK_SECONDS (120; 600 for a thorough look) say
-# how long.
+# minutes of fuzzing, ten of the server under faults, the formats of assimp, the npm package in slow toolchains, the add-on in
+# Blender, the Debian package, and everything in ../shared/data baked, verified and streamed. Expects build/release.
+# FUZZ_SECONDS and SOAK_SECONDS say how long.
 #   all.sh [PART...]   one or several of: style sanitizers fuzz soak formats toolchains blender package shared; all by default
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fuzz_seconds=${FUZZ_SECONDS:-600}
-soak_seconds=${SOAK_SECONDS:-120}
+soak_seconds=${SOAK_SECONDS:-600}
 
 say() { printf '\033[1m%s\033[0m\n' "$*" >&2; }
 

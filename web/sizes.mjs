@@ -3,6 +3,7 @@
 // Prints how large the page is in brotli, in bytes: all that is loaded before the first picture, the part of it that is Lightwell's
 // (three.js and its loader and controls left out), and what is fetched later, when it is asked for.   node sizes.mjs [--json]
 import { readdir, readFile } from 'node:fs/promises';
+import { basename } from 'node:path';
 import { brotliCompressSync } from 'node:zlib';
 import { bundle } from './bundle.mjs';
 
@@ -12,12 +13,13 @@ const compressed = async (...files) => {
   const texts = await Promise.all(files.map((file) => readFile(`dist/${file}`)));
   return texts.reduce((sum, text) => sum + sizeOf(text), 0);
 };
-const [own] = await bundle({
+const bundled = await bundle({
   entryPoints: ['src/page/main.ts'],
   external: ['three', 'three/*'],
   splitting: true,
   loader: { '.html': 'text' },
 });
+const own = bundled.find(({ path }) => basename(path) === 'main.js');
 const script = sizeOf(own.text);
 const worker = await compressed('worker.js');
 const wasm = await compressed('lightwell.wasm');

@@ -51,6 +51,11 @@ std::vector<Vec<float, N>> read_vectors(const AccessorData& data, const std::vec
 /// view.
 Result<std::vector<Vec3f>> read_sparse_vectors(const Document& document, int accessor, size_t count);
 
+/// Appends an accessor of the first `count` elements of another, which may be sparse in ascending order, on the same
+/// bytes, and returns its index. Where the other states bounds, it states its own; fails where those cannot be read.
+/// Invalidates references into the JSON.
+Result<int> append_prefix(Document& document, int accessor, size_t count);
+
 /// The elements of an accessor of unsigned scalars; empty for other types.
 std::vector<uint32_t> widen_indices(const AccessorData& data);
 /// The same for an accessor; fails for other types.

@@ -21,6 +21,15 @@ struct Pose {
 Result<void> apply_pose(const Document& document, const Json& primitive, const std::string& name, const Pose& pose,
                         size_t vertices, const std::vector<uint32_t>* only, Mesh& mesh);
 
+/// A primitive as its file has it, without a pose, and of each of its vertices the row in the primitive's accessors.
+struct MeshAtRest {
+  Mesh mesh;
+  std::vector<uint32_t> rows;
+};
+
+/// Reads it; errors and warnings are those of read_primitive().
+Result<MeshAtRest> read_at_rest(const Document& document, int mesh, int primitive, Report& report);
+
 /// The inverse bind matrices of a skin, one a joint; each the identity where the file has none.
 Result<std::vector<Transform>> read_inverse_binds(const Document& document, int skin);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <numeric>
 
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
@@ -56,6 +57,14 @@ class PrimitiveReader {
     LW_CHECK(read_colors());
     LW_CHECK(apply_pose(document_, primitive_, name_, pose_, vertex_count_, only_, mesh_));
     return std::move(mesh_);
+  }
+
+  /// Of each vertex that was read its row in the accessors.
+  std::vector<uint32_t> rows() {
+    if (only_) return std::move(used_);
+    std::vector<uint32_t> all(vertex_count_);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
   }
 
  private:
@@ -171,6 +180,19 @@ class PrimitiveReader {
   const std::vector<uint32_t>* only_ = nullptr;  ///< then points to used_
 };
 
+std::string name_of(int mesh, int primitive) {
+  return element_name("meshes", static_cast<size_t>(std::max(0, mesh))) + "." +
+         element_name("primitives", static_cast<size_t>(std::max(0, primitive)));
+}
+
+Result<const Json*> find_primitive(const Document& document, int mesh, int primitive) {
+  const Json& meshes = member(document.json, "meshes");
+  const Json& json =
+      element(member(element(meshes, static_cast<size_t>(mesh)), "primitives"), static_cast<size_t>(primitive));
+  if (!json.is_object()) return fail(name_of(mesh, primitive), "does not exist");
+  return &json;
+}
+
 }  // namespace
 
 PrimitiveMode primitive_mode(const Json& primitive) {
@@ -185,13 +207,16 @@ Result<Mesh> read_primitive(const Document& document, int mesh, int primitive, R
 }
 
 Result<Mesh> read_primitive(const Document& document, int mesh, int primitive, const Pose& pose, Report& report) {
-  const std::string name = element_name("meshes", static_cast<size_t>(std::max(0, mesh))) + "." +
-                           element_name("primitives", static_cast<size_t>(std::max(0, primitive)));
-  const Json& meshes = member(document.json, "meshes");
-  const Json& json =
-      element(member(element(meshes, static_cast<size_t>(mesh)), "primitives"), static_cast<size_t>(primitive));
-  if (!json.is_object()) return fail(name, "does not exist");
-  return PrimitiveReader(document, json, name, pose, report).read();
+  LW_TRY(json, find_primitive(document, mesh, primitive));
+  return PrimitiveReader(document, *json, name_of(mesh, primitive), pose, report).read();
+}
+
+Result<MeshAtRest> read_at_rest(const Document& document, int mesh, int primitive, Report& report) {
+  LW_TRY(json, find_primitive(document, mesh, primitive));
+  const Pose rest;
+  PrimitiveReader reader(document, *json, name_of(mesh, primitive), rest, report);
+  LW_TRY(read, reader.read());
+  return MeshAtRest{std::move(read), reader.rows()};
 }
 
 }  // namespace lightwell

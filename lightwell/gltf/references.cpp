@@ -34,6 +34,8 @@ constexpr std::array patterns = std::to_array<Pattern>({
     {"meshes[].primitives[].indices", "accessors"},
     {"meshes[].primitives[].material", "materials"},
     {"meshes[].primitives[].targets[].*", "accessors"},
+    {"meshes[].primitives[].extensions.LIGHTWELL_progressive_mesh.deformation.attributes.*", "accessors"},
+    {"meshes[].primitives[].extensions.LIGHTWELL_progressive_mesh.deformation.targets[].*", "accessors"},
     {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", "bufferViews"},
     {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].material", "materials"},
     {"meshes[].primitives[].extensions.KHR_materials_variants.mappings[].variants[]", variants},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -97,6 +98,32 @@ Result<std::vector<Vec3f>> read_sparse_vectors(const Document& document, int acc
   if (json.contains("sparse")) LW_CHECK(apply_sparse(document, json, elements, data.stride, name));
   data.bytes = elements;
   return read_vectors<3>(data);
+}
+
+Result<int> append_prefix(Document& document, int accessor, size_t count) {
+  Json prefix = element(member(document.json, "accessors"), static_cast<size_t>(accessor));
+  const std::string name = element_name("accessors", static_cast<size_t>(std::max(0, accessor)));
+  if (!(number(prefix, "count", 0) >= static_cast<double>(count))) return fail(name, "has too few elements");
+  prefix["count"] = count;
+  if (prefix.contains("sparse")) {
+    Json& sparse = prefix["sparse"];
+    const Json indices = part_accessor(sparse["indices"], "SCALAR", sparse["count"]);
+    LW_TRY(data, locate_base(document, indices, name + ".sparse.indices"));
+    const std::vector<uint32_t> places = widen_indices(data);
+    sparse["count"] = std::ranges::lower_bound(places, count) - places.begin();
+    if (sparse["count"] == 0) prefix.erase("sparse");
+  }
+  Json& accessors = document.json["accessors"];
+  accessors.push_back(prefix);
+  const auto index = static_cast<int>(accessors.size()) - 1;
+  if (prefix.contains("min")) {
+    LW_TRY(values, read_sparse_vectors(document, index, count));
+    Box3f box;
+    for (const Vec3f& value : values) box.extend(value);
+    for (const auto& [key, corner] : {std::pair("min", box.lo), std::pair("max", box.hi)})
+      document.json["accessors"].back()[key] = {shortest(corner[0]), shortest(corner[1]), shortest(corner[2])};
+  }
+  return index;
 }
 
 Result<void> expand_sparse(Document& document, Budget& budget) {

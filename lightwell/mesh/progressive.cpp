@@ -51,6 +51,7 @@ QuantizedMesh permuted(const QuantizedMesh& mesh, const std::vector<uint32_t>& o
   out.normals = permuted(mesh.normals, order);
   for (size_t set = 0; set < 2; set++) out.texcoords[set] = permuted(mesh.texcoords[set], order);
   out.colors = permuted(mesh.colors, order);
+  out.rows = permuted(mesh.rows, order);
   return out;
 }
 

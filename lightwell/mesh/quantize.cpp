@@ -65,12 +65,14 @@ struct Tuple {
   NormalCode normal;
   std::array<Vec<int, 2>, 2> texcoords;
   ColorCode color{};
+  uint32_t row = 0;
   uint32_t source = 0;
 
-  auto key() const { return std::tie(morton, position, normal, texcoords, color); }
+  auto key() const { return std::tie(morton, position, normal, texcoords, color, row); }
 };
 
-std::vector<Tuple> tuples_of(const Mesh& mesh, const std::vector<bool>& used, const QuantizedMesh& lattices) {
+std::vector<Tuple> tuples_of(const Mesh& mesh, std::span<const uint32_t> rows, const std::vector<bool>& used,
+                             const QuantizedMesh& lattices) {
   std::vector<Tuple> tuples;
   Vec3i lowest = Vec3i::filled(Lattice::limit);
   for (size_t v = 0; v < mesh.positions.size(); v++) {
@@ -83,6 +85,7 @@ std::vector<Tuple> tuples_of(const Mesh& mesh, const std::vector<bool>& used, co
         for (int i = 0; i < 2; i++)
           t.texcoords[set][i] = lattices.texcoord_lattices[set].code(mesh.texcoords[set][v][i]);
     if (!mesh.colors.empty()) t.color = color_code(mesh.colors[v]);
+    if (!rows.empty()) t.row = rows[v];
     t.source = static_cast<uint32_t>(v);
     lowest = min(lowest, t.position);
     tuples.push_back(t);
@@ -94,12 +97,13 @@ std::vector<Tuple> tuples_of(const Mesh& mesh, const std::vector<bool>& used, co
   return tuples;
 }
 
-void append(QuantizedMesh& out, const Tuple& t, const Mesh& mesh) {
+void append(QuantizedMesh& out, const Tuple& t, const Mesh& mesh, bool has_rows) {
   out.positions.push_back(t.position);
   if (!mesh.normals.empty()) out.normals.push_back(t.normal);
   for (size_t set = 0; set < 2; set++)
     if (!mesh.texcoords[set].empty()) out.texcoords[set].push_back(t.texcoords[set]);
   if (!mesh.colors.empty()) out.colors.push_back(t.color);
+  if (has_rows) out.rows.push_back(t.row);
 }
 
 }  // namespace
@@ -122,11 +126,11 @@ Result<QuantizedMesh> quantize(const Mesh& mesh, const QuantizeOptions& options)
     if (!mesh.texcoords[set].empty())
       out.texcoord_lattices[set] = lattice_for(texcoord_exponent, extent_of(mesh.texcoords[set], used));
 
-  std::vector<Tuple> tuples = tuples_of(mesh, used, out);
+  std::vector<Tuple> tuples = tuples_of(mesh, options.rows, used, out);
   std::sort(tuples.begin(), tuples.end(), [](const Tuple& a, const Tuple& b) { return a.key() < b.key(); });
   std::vector<uint32_t> vertex_of(used.size());
   for (size_t i = 0; i < tuples.size(); i++) {
-    if (i == 0 || tuples[i - 1].key() != tuples[i].key()) append(out, tuples[i], mesh);
+    if (i == 0 || tuples[i - 1].key() != tuples[i].key()) append(out, tuples[i], mesh, !options.rows.empty());
     vertex_of[tuples[i].source] = static_cast<uint32_t>(out.positions.size() - 1);
   }
   out.faces.reserve(mesh.faces.size());

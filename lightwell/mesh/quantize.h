@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "lightwell/base/result.h"
@@ -16,6 +17,9 @@ struct QuantizeOptions {
   /// box, which deviate by at most a 16,384th of it. At least 6 bits are used, so that a mesh smaller than the
   /// deviation keeps its form; at most 21, and no more than the floats of the input hold.
   float position_error = 0;
+  /// Of each vertex the row of what goes with it beside the mesh (a skin's weights). Vertices of different rows stay
+  /// apart. Empty: none has anything.
+  std::span<const uint32_t> rows = {};
 };
 
 /// A mesh in integers: positions and texcoords on lattices, normals on the octahedral grid, colours in 8 bits. Its
@@ -28,6 +32,7 @@ struct QuantizedMesh {
   std::vector<NormalCode> normals;
   std::array<std::vector<Vec<int, 2>>, 2> texcoords;
   std::vector<ColorCode> colors;
+  std::vector<uint32_t> rows;  ///< as in QuantizeOptions
   std::vector<Face> faces;
 };
 

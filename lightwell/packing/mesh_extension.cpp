@@ -1,10 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/mesh_extension.h"
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "lightwell/packing/member_reader.h"
 
 namespace lightwell {
 namespace {
+
+using Accessors = std::map<std::string, int>;
+
+Result<Accessors> read_accessors(const Json& json, const std::string& name,
+                                 std::initializer_list<const char*> semantics) {
+  MemberReader reader(json, name);
+  Accessors accessors;
+  for (const auto& [semantic, accessor] : json.items()) {
+    const bool known = std::ranges::any_of(semantics, [&](const char* start) { return semantic.starts_with(start); });
+    if (!known) return fail(name, "an attribute that bends nothing: " + semantic.substr(0, 40));
+    accessors[semantic] = static_cast<int>(reader.whole(semantic.c_str()));
+  }
+  return reader.finish(std::move(accessors));
+}
+
+Result<DeformationAccessors> read_deformation(const Json& json, const std::string& name) {
+  MemberReader reader(json, name);
+  const Json& attributes = reader.object("attributes");
+  const Json& targets = reader.array("targets");
+  LW_CHECK(reader.finish(true));
+  DeformationAccessors deformation;
+  LW_TRY(skin, read_accessors(attributes, name + ".attributes", {"JOINTS_", "WEIGHTS_"}));
+  deformation.attributes = std::move(skin);
+  for (size_t i = 0; i < targets.size(); i++) {
+    const std::string target = reader.name_of("targets", i);
+    if (!targets[i].is_object()) return fail(target, "is not an object");
+    LW_TRY(displacements, read_accessors(targets[i], target, {"POSITION", "NORMAL"}));
+    deformation.targets.push_back(std::move(displacements));
+  }
+  return deformation;
+}
 
 Result<RefinedPrimitive> read_refined_primitive(const Json& json, const std::string& name) {
   MemberReader reader(json, name);
@@ -17,17 +51,24 @@ Result<RefinedPrimitive> read_refined_primitive(const Json& json, const std::str
   LW_CHECK(reader.finish(true));
   MemberReader bounds(box, name + ".bounds");
   refined.bounds = {bounds.vector("min"), bounds.vector("max")};
+  if (reader.has("deformation")) {
+    LW_TRY(deformation, read_deformation(json["deformation"], name + ".deformation"));
+    refined.deformation = std::move(deformation);
+  }
   return bounds.finish(refined);
 }
 
 }  // namespace
 
 Json to_json(const RefinedPrimitive& refined) {
-  return {{"stream", refined.stream},
-          {"vertices", refined.vertices},
-          {"faces", refined.faces},
-          {"bounds", {{"min", to_json(refined.bounds.lo)}, {"max", to_json(refined.bounds.hi)}}},
-          {"error", to_json(refined.error)}};
+  Json json = {{"stream", refined.stream},
+               {"vertices", refined.vertices},
+               {"faces", refined.faces},
+               {"bounds", {{"min", to_json(refined.bounds.lo)}, {"max", to_json(refined.bounds.hi)}}},
+               {"error", to_json(refined.error)}};
+  if (refined.deformation)
+    json["deformation"] = {{"attributes", refined.deformation->attributes}, {"targets", refined.deformation->targets}};
+  return json;
 }
 
 Result<std::vector<RefinedPrimitive>> read_refined_primitives(const Json& json) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "lightwell/base/vector.h"
@@ -11,6 +14,15 @@ namespace lightwell {
 /// The LIGHTWELL_progressive_mesh extension (docs/format.md): names the stream that refines a primitive.
 inline constexpr const char* mesh_extension = "LIGHTWELL_progressive_mesh";
 
+/// Accessors of what bends a refined primitive, of all vertices of its final level in the order in which its stream
+/// brings them: joints and weights of a skin by their semantics, and displacements, of each morph target, by theirs.
+struct DeformationAccessors {
+  std::map<std::string, int> attributes;
+  std::vector<std::map<std::string, int>> targets;
+
+  bool operator==(const DeformationAccessors&) const = default;
+};
+
 /// A primitive that a stream refines.
 struct RefinedPrimitive {
   uint32_t stream = 0;
@@ -18,6 +30,7 @@ struct RefinedPrimitive {
   Box3f bounds;                      ///< of the input mesh
   float error = 0;                   ///< of the coarsest level, in the mesh's own units
   size_t mesh = 0, primitive = 0;    ///< its place in the JSON: meshes[mesh].primitives[primitive]
+  std::optional<DeformationAccessors> deformation = {};
 
   bool operator==(const RefinedPrimitive&) const = default;
 };

@@ -33,10 +33,11 @@ RefinedPrimitive describe(const StreamedMesh& mesh, const Primitive& source, siz
   return {static_cast<uint32_t>(stream),
           layout.vertices,
           layout.faces,
-          source.mesh.bounds(),
+          mesh.bounds,
           layout.base_error,
           static_cast<size_t>(source.source_mesh),
-          static_cast<size_t>(source.source_primitive)};
+          static_cast<size_t>(source.source_primitive),
+          mesh.accessors};
 }
 
 }  // namespace

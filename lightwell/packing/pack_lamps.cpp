@@ -61,7 +61,8 @@ std::vector<ClientLamp> lamps_of_pack(std::span<const ClientLamp> lamps, const S
     const int primitive = primitive_of(lamp.luminaire, scene);
     for (const StreamedMesh& mesh : streamed) {
       if (mesh.primitive != primitive) continue;
-      const Mesh& source = scene.primitives[static_cast<size_t>(primitive)].mesh;
+      const Mesh& source =
+          mesh.deforming ? mesh.deforming->mesh : scene.primitives[static_cast<size_t>(primitive)].mesh;
       const auto vertex = vertex_in_stream(source, lamp.luminaire.vertex, mesh.encoded);
       lamp.luminaire = vertex ? lamp.luminaire : LuminaireId{.kind = LuminaireId::Kind::surface};
       if (vertex) lamp.luminaire.vertex = *vertex;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "lightwell/base/parallel.h"
+#include "lightwell/gltf/pose.h"
 #include "lightwell/mesh/progressive.h"
 #include "lightwell/packing/opening_budget.h"
 
@@ -39,13 +41,51 @@ class Cancellation : public Progress {
 // A level with fewer vertices shows nothing of a shape.
 constexpr uint32_t fewest_vertices = 8;
 
-// The primitives that a stream can refine.
-std::vector<int> refined_primitives(const Scene& scene) {
-  std::vector<int> refined;
-  for (size_t i = 0; i < scene.primitives.size(); i++)
-    if (!scene.primitives[i].deforming && !scene.primitives[i].mesh.faces.empty())
-      refined.push_back(static_cast<int>(i));
-  return refined;
+// A primitive that a stream can refine.
+struct Source {
+  int primitive = 0;
+  float scale = 0;  // the largest factor by which an instance, or its pose, stretches its lengths
+  const Mesh* posed = nullptr;
+  std::optional<DeformingMesh> deforming = {};
+
+  const Mesh& mesh() const { return deforming ? deforming->mesh : *posed; }
+};
+
+std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive& primitive) {
+  Report known;
+  auto rest = read_at_rest(scene.document, primitive.source_mesh, primitive.source_primitive, known);
+  if (!rest) return {};
+  const Json& json = scene.document.json["meshes"][static_cast<size_t>(primitive.source_mesh)]["primitives"]
+                                        [static_cast<size_t>(primitive.source_primitive)];
+  const Json& positions =
+      element(scene.document.json["accessors"], static_cast<size_t>(index_of(json["attributes"], "POSITION")));
+  auto deformation = Deformation::read(scene.document, json, static_cast<size_t>(number(positions, "count", 0)), "");
+  if (!deformation) return {};
+  const std::vector<uint32_t> first = deformation->first_alike();
+  for (uint32_t& row : rest->rows) row = first[row];
+  return DeformingMesh{std::move(rest->mesh), std::move(*deformation), std::move(rest->rows)};
+}
+
+// What deforms is there once, whatever poses it is shown in, and stays whole where its arrays are not as they should
+// be.
+std::vector<Source> sources(const Scene& scene) {
+  const std::vector<float> scales = largest_scales(scene);
+  std::set<std::pair<int, int>> seen;
+  std::vector<Source> found;
+  for (size_t i = 0; i < scene.primitives.size(); i++) {
+    const Primitive& primitive = scene.primitives[i];
+    if (primitive.mesh.faces.empty()) continue;
+    Source source{static_cast<int>(i), scales[i], &primitive.mesh};
+    if (primitive.deforming) {
+      if (!seen.emplace(primitive.source_mesh, primitive.source_primitive).second) continue;
+      source.deforming = deforming_mesh(scene, primitive);
+      if (!source.deforming) continue;
+      const float rest = length(source.mesh().bounds().size()), posed = length(primitive.mesh.bounds().size());
+      if (rest > 0 && posed > 0) source.scale *= posed / rest;
+    }
+    found.push_back(std::move(source));
+  }
+  return found;
 }
 
 // Reports the progress of meshes processed in parallel. Every vertex counts twice: when simplified and when encoded.
@@ -65,22 +105,21 @@ class SharedCount {
   size_t done_ = 0;
 };
 
-SimplifyOptions simplify_options(const PackOptions& options, float scale) {
+SimplifyOptions simplify_options(const PackOptions& options, const Source& source) {
   SimplifyOptions simplify;
   simplify.base_vertices = fewest_vertices;
-  if (options.position_error > 0 && scale > 0) simplify.quantize.position_error = options.position_error / scale;
+  if (options.position_error > 0 && source.scale > 0)
+    simplify.quantize.position_error = options.position_error / source.scale;
+  if (source.deforming) simplify.quantize.rows = source.deforming->rows;
   return simplify;
 }
 
 }  // namespace
 
 Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress) {
-  const std::vector<int> refined = refined_primitives(scene);
-  const std::vector<float> scales = largest_scales(scene);
-  const auto mesh_of = [&](size_t i) -> const Mesh& { return scene.primitives[static_cast<size_t>(refined[i])].mesh; };
-  const auto scale_of = [&](size_t i) { return scales[static_cast<size_t>(refined[i])]; };
+  std::vector<Source> refined = sources(scene);
   size_t total = 0;
-  for (size_t i = 0; i < refined.size(); i++) total += mesh_of(i).positions.size();
+  for (const Source& source : refined) total += source.mesh().positions.size();
   SharedCount count(progress, total);
   Cancellation cancellation(progress);
 
@@ -88,14 +127,15 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   std::vector<Result<void>> outcomes(refined.size());
   std::vector<std::vector<OpeningForm>> forms(refined.size());
   parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
-    auto mesh = simplify(mesh_of(i), simplify_options(options, scale_of(i)), cancellation);
+    const Mesh& source = refined[i].mesh();
+    auto mesh = simplify(source, simplify_options(options, refined[i]), cancellation);
     if (!mesh) {
       outcomes[i] = fail(mesh.error());
       return;
     }
-    forms[i] = opening_forms(mesh_of(i), *mesh, scale_of(i));
+    forms[i] = opening_forms(source, *mesh, refined[i].scale);
     simplified[i] = std::move(*mesh);
-    count.add(mesh_of(i).positions.size());
+    count.add(source.positions.size());
   });
   for (Result<void>& outcome : outcomes) LW_CHECK(outcome);
 
@@ -104,25 +144,28 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   std::vector<std::optional<EncodedMesh>> encoded(refined.size());
   parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
     if (rounds[i] > 0 && !progress.cancelled()) {
-      const ProgressiveMesh mesh = refine_after(std::move(*simplified[i]), rounds[i]);
+      ProgressiveMesh mesh = refine_after(std::move(*simplified[i]), rounds[i]);
       encoded[i] = encode(mesh);
+      if (refined[i].deforming) refined[i].deforming->rows = std::move(mesh.mesh.rows);
     }
     simplified[i].reset();
-    count.add(mesh_of(i).positions.size());
+    count.add(refined[i].mesh().positions.size());
   });
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "meshes", "cancelled");
 
-  std::vector<StreamedMesh> streamed;
+  std::vector<std::pair<float, StreamedMesh>> streamed;  // with its error, metres
   // A mesh of degenerate faces only has no coarsest level and stays whole in the opening.
-  for (size_t i = 0; i < encoded.size(); i++)
-    if (encoded[i] && !encoded[i]->blocks.empty() && !encoded[i]->base.faces.empty())
-      streamed.push_back({refined[i], std::move(*encoded[i])});
-  auto seen_error = [&](const StreamedMesh& mesh) {
-    return mesh.encoded.layout.base_error * scales[static_cast<size_t>(mesh.primitive)];
-  };
-  std::stable_sort(streamed.begin(), streamed.end(),
-                   [&](const StreamedMesh& a, const StreamedMesh& b) { return seen_error(a) > seen_error(b); });
-  return streamed;
+  for (size_t i = 0; i < encoded.size(); i++) {
+    if (!encoded[i] || encoded[i]->blocks.empty() || encoded[i]->base.faces.empty()) continue;
+    const float error = encoded[i]->layout.base_error * refined[i].scale;
+    const Box3f bounds = refined[i].mesh().bounds();
+    streamed.push_back(
+        {error, {refined[i].primitive, std::move(*encoded[i]), bounds, std::move(refined[i].deforming)}});
+  }
+  std::stable_sort(streamed.begin(), streamed.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<StreamedMesh> sorted;
+  for (auto& [error, mesh] : streamed) sorted.push_back(std::move(mesh));
+  return sorted;
 }
 
 }  // namespace lightwell

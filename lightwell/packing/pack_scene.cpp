@@ -22,36 +22,61 @@ bool has_attribute(const Mesh& mesh, const std::string& name) {
          (name == "COLOR_0" && !mesh.colors.empty());
 }
 
+// What a primitive shows in the opening: the coarsest level when it is streamed, else the whole mesh.
+struct Shown {
+  const Mesh* mesh = nullptr;
+  StreamedMesh* streamed = nullptr;
+
+  bool has(const std::string& name) const {
+    return has_attribute(*mesh, name) ||
+           (streamed && streamed->deforming && streamed->deforming->deformation.has(name));
+  }
+};
+
 // Takes the arrays of a primitive away; keeps material, extras and extensions. Collects the names of attributes that
-// `mesh`, which is to take its place, does not have in `lost`.
-void take_arrays(Json& primitive, const Mesh& mesh, std::set<std::string>& lost) {
+// what is to take their place does not have in `lost`.
+void take_arrays(Json& primitive, const Shown& shown, std::set<std::string>& lost) {
   for (const auto& attribute : primitive["attributes"].items())
-    if (!has_attribute(mesh, attribute.key())) lost.insert(attribute.key().substr(0, 40));
-  for (const char* name : {"mode", "attributes", "indices"}) primitive.erase(name);
+    if (!shown.has(attribute.key())) lost.insert(attribute.key().substr(0, 40));
+  for (const Json& target : member(primitive, "targets"))
+    for (const auto& displacement : target.items())
+      if (displacement.key() != "POSITION" && displacement.key() != "NORMAL")
+        lost.insert(displacement.key().substr(0, 40));
+  for (const char* name : {"mode", "attributes", "indices", "targets"}) primitive.erase(name);
 }
 
-void give_arrays(Document& document, const Primitive& primitive, const Mesh& mesh) {
-  const Json arrays = DocumentBuilder(document).primitive(mesh);
+Result<void> give_arrays(Document& document, const Primitive& primitive, const Shown& shown) {
+  const Json arrays = DocumentBuilder(document).primitive(*shown.mesh);
   primitive_json(document.json, primitive).update(arrays);
+  if (!shown.streamed || !shown.streamed->deforming) return {};
+  StreamedMesh& streamed = *shown.streamed;
+  streamed.accessors = streamed.deforming->deformation.write(document, streamed.deforming->rows);
+  LW_TRY(base, prefix_of(*streamed.accessors, shown.mesh->positions.size(), document));
+  bend_by(base, primitive_json(document.json, primitive));
+  return {};
 }
 
-// Replaces the arrays of every mesh that does not deform by those of the opening: the coarsest level when it is
-// streamed, else the whole mesh. The old arrays go first: of scenes of very many parts the JSON is most of the memory.
-void shrink_meshes(const Scene& scene, const std::vector<StreamedMesh>& streamed, Document& document, Report& report) {
-  std::vector<const Mesh*> shown(scene.primitives.size());
-  for (size_t i = 0; i < shown.size(); i++) shown[i] = &scene.primitives[i].mesh;
-  for (const StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = &mesh.encoded.base;
-  const auto replaced = [&](size_t i) { return !scene.primitives[i].deforming && !shown[i]->faces.empty(); };
+// Replaces the arrays of every mesh by those of the opening; what deforms and is not streamed keeps the file's. The old
+// arrays go first: of scenes of very many parts the JSON is most of the memory.
+Result<void> shrink_meshes(const Scene& scene, std::vector<StreamedMesh>& streamed, Document& document,
+                           Report& report) {
+  std::vector<Shown> shown(scene.primitives.size());
+  for (size_t i = 0; i < shown.size(); i++) shown[i].mesh = &scene.primitives[i].mesh;
+  for (StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = {&mesh.encoded.base, &mesh};
+  const auto replaced = [&](size_t i) {
+    return (!scene.primitives[i].deforming || shown[i].streamed) && !shown[i].mesh->faces.empty();
+  };
   std::set<std::string> lost;
   for (size_t i = 0; i < shown.size(); i++)
-    if (replaced(i)) take_arrays(primitive_json(document.json, scene.primitives[i]), *shown[i], lost);
+    if (replaced(i)) take_arrays(primitive_json(document.json, scene.primitives[i]), shown[i], lost);
   drop_unused(document);
   for (size_t i = 0; i < shown.size(); i++)
-    if (replaced(i)) give_arrays(document, scene.primitives[i], *shown[i]);
+    if (replaced(i)) LW_CHECK(give_arrays(document, scene.primitives[i], shown[i]));
   std::string names;
   for (const std::string& name : lost)
     if (names.size() < 400) names += (names.empty() ? "" : ", ") + name;
   if (!lost.empty()) report.warn("vertex attributes left out, not supported: " + names);
+  return {};
 }
 
 // Replaces references to texture coordinate sets that Mesh does not support by set 0, as the import does.
@@ -151,7 +176,7 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   progress.stage("writing", 0, "");
   Document document = std::move(scene.document);
   name_scene(document.json, scene.name);
-  shrink_meshes(scene, content.meshes, document, report);
+  LW_CHECK(shrink_meshes(scene, content.meshes, document, report));
   if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
   content.environment = add_environment(scene, document);
   content.images = shrink_images(scene, document);

@@ -10,6 +10,7 @@
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/gltf/parsed_document.h"
 #include "lightwell/pack/opening.h"
+#include "lightwell/packing/deformation.h"
 #include "lightwell/packing/environment_picture.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/texture/image_file.h"
@@ -76,6 +77,9 @@ Result<void> refine_meshes(Document& document, const PackRefinement& refinement)
     Json& target = document.json["meshes"][refined.mesh]["primitives"][refined.primitive];
     target["attributes"] = arrays["attributes"];
     target["indices"] = arrays["indices"];
+    if (!refined.deformation) continue;
+    LW_TRY(bending, prefix_of(*refined.deformation, mesh.positions.size(), document));
+    bend_by(bending, document.json["meshes"][refined.mesh]["primitives"][refined.primitive]);
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include "lightwell/asset/mesh_asset.h"
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/document.h"
+#include "lightwell/packing/deformation.h"
 #include "lightwell/packing/unpack.h"
 
 namespace lightwell {
@@ -50,10 +51,10 @@ std::vector<std::pair<std::string, BaseArray>> attributes_of(const MeshLayout& l
 }
 
 Result<void> verify_arrays(const Json& json, const Json& primitive, const std::string& name, const MeshLayout& layout,
-                           const BasePlaces& places) {
+                           const BasePlaces& places, size_t bending) {
   const auto attributes = attributes_of(layout, places);
   const Json& said = member(primitive, "attributes");
-  if (said.size() != attributes.size()) return fail(name, "has other attributes than its stream");
+  if (said.size() != attributes.size() + bending) return fail(name, "has other attributes than its stream");
   for (const auto& [semantic, array] : attributes)
     if (!is_array(json, index_of(said, semantic.c_str()), array))
       return fail(name, semantic + " is not the array that its stream refines");
@@ -100,8 +101,9 @@ Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& re
   if (refined.vertices != layout.vertices || refined.faces != layout.faces || refined.error != layout.base_error)
     return fail(name + "." + mesh_extension, "differs from what its stream says");
   if (!extension(primitive, "KHR_draco_mesh_compression").is_null()) return fail(name, "is compressed");
-  if (!member(primitive, "targets").empty()) return fail(name, "deforms, which no stream can refine");
-  LW_CHECK(verify_arrays(json, primitive, name, layout, places));
+  const DeformationAccessors deformation = refined.deformation.value_or(DeformationAccessors());
+  LW_CHECK(verify_arrays(json, primitive, name, layout, places, deformation.attributes.size()));
+  LW_CHECK(verify_deformation(json, primitive, deformation, layout.base_vertices, layout.vertices, name));
   Box3f positions;
   const MeshBuffers coarsest = mesh->buffers();
   for (const Vec3f& position : coarsest.positions.first(coarsest.vertices)) positions.extend(position);

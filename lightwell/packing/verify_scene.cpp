@@ -30,7 +30,9 @@ Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
           primitive.source_primitive != static_cast<int>(refined.primitive))
         continue;
       LW_TRY(mesh, open_asset_as<MeshAsset>(pack.reader(), refined.stream));
-      if (!holds(refined.bounds, primitive.mesh, mesh->layout().positions.step()))
+      Report known;
+      LW_TRY(finest, read_primitive(scene.document, primitive.source_mesh, primitive.source_primitive, known));
+      if (!holds(refined.bounds, finest, mesh->layout().positions.step()))
         return fail(element_name("meshes", refined.mesh) + "." + element_name("primitives", refined.primitive),
                     "the bounds in " + std::string(mesh_extension) + " do not hold its final level");
     }

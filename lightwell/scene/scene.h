@@ -59,7 +59,7 @@ struct Primitive {
   int material = -1;     ///< index into Scene::materials; -1: glTF's default material
   int source_mesh = -1;  ///< where it stands in Scene::document
   int source_primitive = -1;
-  bool deforming = false;  ///< skinned or morphed: `mesh` is in its pose; a pack keeps the file's own, unrefined
+  bool deforming = false;  ///< skinned or morphed: `mesh` is in its pose; a pack has it at rest, with what bends it
 };
 
 /// A primitive placed in the scene.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightwell/base/random.h"
+#include "lightwell/gltf/accessor.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/writer.h"
 #include "lightwell/packing/opened_pack.h"
@@ -120,6 +121,56 @@ inline Document sheet_document(uint32_t n = 20) {
   builder.add("meshes", {{"primitives", Json::array({primitive})}});
   document.json["nodes"] = {{{"mesh", 0}}};
   builder.add("scenes", {{"nodes", {0}}});
+  return document;
+}
+
+/// A sheet of n x n quads (n even) that four joints and two morph targets bend. Along its middle it has two vertices at
+/// each place, which only their joints tell apart. The second target moves a few vertices and no normals.
+inline Document deforming_document(uint32_t n) {
+  Mesh mesh = painted_sheet(n);
+  mesh.texcoords[0].clear();
+  mesh.colors.clear();
+  const auto all = static_cast<uint32_t>(mesh.positions.size());
+  for (uint32_t j = 0; j <= n; j++) {
+    mesh.positions.push_back(mesh.positions[j * (n + 1) + n / 2]);
+    mesh.normals.push_back(mesh.normals[j * (n + 1) + n / 2]);
+  }
+  for (size_t f = 0; f < mesh.faces.size(); f++)
+    if (f / 2 % n >= n / 2)
+      for (uint32_t& corner : mesh.faces[f])
+        if (corner % (n + 1) == n / 2) corner = all + corner / (n + 1);
+
+  std::vector<std::array<uint8_t, 4>> joints;
+  std::vector<Vec4f> weights;
+  std::vector<Vec3f> bulge, turn, corner;
+  for (uint32_t v = 0; v < mesh.positions.size(); v++) {
+    const Vec3f p = mesh.positions[v];
+    const bool right = v >= all || v % (n + 1) > n / 2;
+    joints.push_back(right ? std::array<uint8_t, 4>{2, 3, 0, 0} : std::array<uint8_t, 4>{0, 1, 0, 0});
+    const float second = std::floor(8 * p[1]) / 8;
+    weights.push_back({{1 - second, second, 0, 0}});
+    bulge.push_back({{0, 0, 1 + p[0] * p[1]}});
+    turn.push_back({{0.1f * p[0], 0, 0}});
+    corner.push_back(p[0] + p[1] < 0.2f ? Vec3f{{0, 1, p[0]}} : Vec3f{});
+  }
+  Document document;
+  DocumentBuilder builder(document);
+  Json primitive = builder.primitive(mesh);
+  const auto vec4 = [&](const auto& values, Component component) {
+    const Bytes bytes(reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(values[0]));
+    return builder.add("accessors", {{"bufferView", builder.buffer_view(bytes)},
+                                     {"componentType", static_cast<int>(component)},
+                                     {"count", values.size()},
+                                     {"type", "VEC4"}});
+  };
+  primitive["attributes"]["JOINTS_0"] = vec4(joints, Component::u8);
+  primitive["attributes"]["WEIGHTS_0"] = vec4(weights, Component::f32);
+  primitive["targets"] = {{{"POSITION", builder.accessor(bulge, true)}, {"NORMAL", builder.accessor(turn, false)}},
+                          {{"POSITION", builder.accessor(corner, true)}}};
+  builder.add("meshes", {{"primitives", Json::array({primitive})}});
+  document.json["skins"] = {{{"joints", {1, 2, 3, 4}}}};
+  document.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}, Json::object(), Json::object(), Json::object(), Json::object()};
+  builder.add("scenes", {{"nodes", {0, 1, 2, 3, 4}}});
   return document;
 }
 

@@ -25,6 +25,8 @@ export interface ProgressiveMeshExtension {
   bounds: { min: Triple; max: Triple };
   /** Of the coarsest level: its distance from the final one, in metres of the mesh's space. */
   error: number;
+  /** Accessors, by glTF's semantics, of what bends all vertices of the final level. */
+  deformation?: { attributes: Record<string, number>; targets: Record<string, number>[] };
 }
 
 /** On a texture. */

@@ -47,10 +47,13 @@ export async function readOpening(glb: ArrayBuffer, manager: LoadingManager): Pr
   gltf.scene.traverse((object) => {
     if (object.userData.gltfExtensions?.KHR_node_visibility?.visible === false) object.visible = false;
   });
+  const primitives = progressivePrimitives(gltf);
+  const bending = [...primitives.values()].filter(({ extension }) => extension.deformation);
+  if (bending.length > 0) await (await import('./deformation.js')).prepareDeformation(bending, gltf);
   return {
     gltf,
     extensions: extensionsOf(gltf.parser),
-    primitives: progressivePrimitives(gltf),
+    primitives,
     images: progressiveImages(gltf),
     meshesOf: (node, primitive) => meshesOf(gltf, node, primitive),
   };

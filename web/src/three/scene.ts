@@ -412,6 +412,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     if (primitive === undefined) return;
     const { min, max } = primitive.extension.bounds;
     const bounds = new Box3(new Vector3(...min), new Vector3(...max));
+    if (primitive.base.boundingBox) bounds.union(primitive.base.boundingBox);
     const refinement = new MeshRefinement(layout, primitive.base, bounds);
     for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
     this.#handOver.run([refinement.geometry]);
@@ -452,6 +453,7 @@ function finalBounds(opening: Opening): Box3 {
   opening.gltf.scene.updateMatrixWorld(true);
   const bounds = new Box3().setFromObject(opening.gltf.scene);
   for (const { extension, meshes } of opening.primitives.values()) {
+    if (extension.deformation) continue;
     const box = new Box3(new Vector3(...extension.bounds.min), new Vector3(...extension.bounds.max));
     for (const mesh of meshes) bounds.union(box.clone().applyMatrix4(mesh.matrixWorld));
   }

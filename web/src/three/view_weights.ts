@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, type Camera, Frustum, Matrix4, type Mesh, Vector3 } from 'three';
+import { Box3, type Camera, Frustum, Matrix4, type Mesh, type SkinnedMesh, Vector3 } from 'three';
 import { assetOf, type LightGridDefinition } from './extensions.js';
 import type { LightwellLight } from './light.js';
 import type { Opening, ProgressiveImage, ProgressivePrimitive } from './opening.js';
@@ -96,5 +96,6 @@ const boxOfGrid = ({ min, cell, nodes }: LightGridDefinition): Bounds => ({
 /** The bounds of a mesh in the world. */
 function boxOf(mesh: Mesh): Box3 {
   if (mesh.geometry.boundingBox === null) mesh.geometry.computeBoundingBox();
-  return new Box3().copy(mesh.geometry.boundingBox!).applyMatrix4(mesh.matrixWorld);
+  const { boundingBox } = mesh as Mesh | SkinnedMesh as Partial<SkinnedMesh>;
+  return new Box3().copy(boundingBox ?? mesh.geometry.boundingBox!).applyMatrix4(mesh.matrixWorld);
 }
