@@ -36,7 +36,7 @@ build_with_sanitizers() {
 sanitizers() {
   build_with_sanitizers
   say "Running the tests under sanitizers"
-  LIGHTWELL_TEST_SCALE=10 ctest --test-dir build/sanitize --output-on-failure --parallel 2 --timeout 3600 >&2
+  LIGHTWELL_TEST_SCALE=10 ctest --test-dir build/sanitize --output-on-failure --parallel 2 --timeout 7200 >&2
 }
 
 # A target's run ends at the first input that crashes it, leaks, takes 20 seconds or too much memory, and keeps that input. One

@@ -7,6 +7,7 @@
 #include "lightwell/bake/turned.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/arguments.h"
+#include "lightwell/cli/memory_limit.h"
 #include "lightwell/cli/number_text.h"
 #include "lightwell/cli/open_scene.h"
 #include "lightwell/packing/grids_extension.h"
@@ -49,6 +50,7 @@ struct Bake {
   uint64_t photons = 0;
   LightBakeStatistics light_statistics;
   PackStatistics pack_statistics;
+  uint64_t expected_memory = 0;
   double import_seconds = 0, light_seconds = 0, geometry_seconds = 0, write_seconds = 0;
   Report report;
 };
@@ -76,9 +78,11 @@ void advise_on_conventions(const ImportOptions& asked, const World& world, Repor
     report.warn("the scene seems to lie on its side: if the file's z axis points up, --up z says so");
 }
 
-Result<void> import_scene(const Options& options, Progress& progress, Bake& bake) {
+Result<void> import_scene(const Options& options, ConsoleProgress& progress, Bake& bake) {
   LW_TRY(opened, open_scene(options.scene, bake.report));
   bake.scene = std::move(opened.scene);
+  bake.expected_memory = expected_memory(bake.scene, peak_memory());
+  progress.note("memory: up to about " + size_text(bake.expected_memory));
   LW_TRY(world, world_facing_light(bake.scene, options.scene.threads, progress, bake.report));
   bake.world = std::move(world);
   if (!opened.pack) advise_on_conventions(options.scene.import, *bake.world, bake.report);
@@ -194,7 +198,7 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   return {};
 }
 
-Result<void> run(const Options& options, Progress& progress, Bake& bake) {
+Result<void> run(const Options& options, ConsoleProgress& progress, Bake& bake) {
   LW_CHECK(check_options(options));
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
   Stopwatch watch;
@@ -259,6 +263,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
         {"geometry", bake.geometry_seconds},
         {"write", bake.write_seconds}}},
       {"rays_per_second", static_cast<double>(bake.light_statistics.rays) / bake.light_seconds},
+      {"expected_memory", bake.expected_memory},
       {"peak_memory", peak_memory()},
       {"pack_bytes", bake.file.size()},
       {"bytes",
@@ -279,7 +284,7 @@ nlohmann::ordered_json figures(const Options& options, const Bake& bake) {
 
 int bake_scene(const Options& options, const Console& console) {
   Bake bake;
-  const auto outcome = with_progress(console, [&](Progress& progress) { return run(options, progress, bake); });
+  const auto outcome = with_progress(console, [&](ConsoleProgress& progress) { return run(options, progress, bake); });
   if (!console.json) console.warn(bake.report);
   if (!outcome) return console.fail(in_file(outcome.error(), options.scene.path));
   nlohmann::ordered_json result = figures(options, bake);

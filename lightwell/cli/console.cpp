@@ -125,6 +125,11 @@ void ConsoleProgress::finish() {
   name_.clear();
 }
 
+void ConsoleProgress::note(const std::string& line) {
+  finish();
+  if (enabled_ && !cancelled()) std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -37,6 +37,8 @@ class ConsoleProgress : public Progress {
   void stage(std::string_view name, double total, std::string_view unit) override;
   void advance(double done) override;
   bool cancelled() const override;
+  /// Ends the last stage and prints a line of its own.
+  void note(const std::string& line);
   /// Ends the last stage and prints its time. Not called after a failure, of which only the error is shown.
   void finish();
 

@@ -23,6 +23,7 @@ Meaning meaning_of(const std::string& key, Unit outer) {
       {"seconds", {"time", Unit::seconds}},
       {"bytes", {"size", Unit::bytes}},
       {"pack_bytes", {"size of the pack", Unit::bytes}},
+      {"expected_memory", {"expected memory", Unit::bytes}},
       {"peak_memory", {"peak memory", Unit::bytes}},
       {"rays_per_second", {"rays a second"}},
       {"first_picture", {"first picture"}},

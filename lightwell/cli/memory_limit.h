@@ -15,6 +15,10 @@ uint64_t machine_memory();
 /// needed is up to three times as much.
 uint64_t least_memory(const Scene& scene);
 
+/// Bytes that a bake of the scene will have taken at its peak, of which `already` were taken when the scene had been
+/// read. What is really taken is at most 1.3 times as much, and where the light is simple a quarter.
+uint64_t expected_memory(const Scene& scene, uint64_t already);
+
 /// Refuses a scene that needs more than `limit` bytes in any case, instead of trying for minutes.
 Result<void> check_memory(const Scene& scene, uint64_t limit);
 

@@ -9,6 +9,7 @@
 #include "lightwell/cli/memory_limit.h"
 #include "lightwell/scene/import_obj.h"
 #include "lightwell/scene/scene_builder.h"
+#include "tests/address_sanitizer.h"
 #include "tests/cli/commands.h"
 #include "tests/trace/scenes.h"
 
@@ -50,7 +51,11 @@ class Bounds : public Commands {
   double memory_of_bake(const std::string& scene) const {
     const Outcome baked = run("bake " + scene + " --grid 2 --threads 1 --quiet --json -o " + path("pack.glb"));
     EXPECT_EQ(baked.status, 0) << baked.err;
-    return baked.status == 0 ? json::parse(baked.out)["peak_memory"].get<double>() : 0;
+    if (baked.status != 0) return 0;
+    const json figures = json::parse(baked.out);
+    const double peak = figures["peak_memory"], expected = figures["expected_memory"];
+    EXPECT_LT(peak, with_sanitizer * 1.3 * expected) << scene;
+    return peak;
   }
 
   /// Processor seconds of a small bake.
@@ -96,13 +101,25 @@ TEST_F(Bounds, PartsSideBySideAreBakedInLinearTime) {
 // A hundred thousand are to fit into a gigabyte.
 TEST_F(Bounds, APartTakesTenKilobytes) {
   const double few = memory_of_bake(boxes(2000, false)), many = memory_of_bake(boxes(12000, false));
-  EXPECT_LT((many - few) / 10000, 10e3);
+  EXPECT_LT((many - few) / 10000, with_sanitizer * 10e3);
+}
+
+TEST_F(Bounds, ABakeTakesWhatItSaysBeforehand) {
+  const Outcome baked = run("bake box -o " + path("box.glb") + " --target-error 4 --json");
+  ASSERT_EQ(baked.status, 0) << baked.err;
+  const json figures = json::parse(baked.out);
+  const double peak = figures["peak_memory"], expected = figures["expected_memory"];
+  EXPECT_LT(peak, with_sanitizer * 1.3 * expected);
+  EXPECT_GT(with_sanitizer * peak, expected / 2);  // a million triangles are most of it
+  const size_t said = baked.err.find("memory: up to about ");
+  ASSERT_NE(said, std::string::npos) << baked.err;
+  EXPECT_LT(said, baked.err.find("light"));
 }
 
 // The library would keep kilobytes of each. What is kept here are a few numbers, a name and the place by that name.
 TEST_F(Bounds, AMaterialThatNothingUsesTakesHundredsOfBytes) {
   const double few = memory_of_bake(obj(1, 1)), many = memory_of_bake(obj(300000, 1));
-  EXPECT_LT((many - few) / 300000, 1000);
+  EXPECT_LT((many - few) / 300000, with_sanitizer * 1000);
 }
 
 TEST_F(Bounds, AnObjOfVeryManyPartsIsRefused) {
@@ -127,11 +144,7 @@ TEST_F(Bounds, WhatCannotFitIsRefusedBeforehand) {
 }
 
 TEST_F(Bounds, AMemoryLimitHolds) {
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  GTEST_SKIP() << "left out: the sanitizer's own memory is beyond any such limit";
-#endif
-#endif
+  if (with_sanitizer > 1) GTEST_SKIP() << "left out: the sanitizer's own memory is beyond any such limit";
   const std::string scene = boxes(1000, false);
   const std::string bake =
       "bake " + scene + " --grid 2 --threads 1 --quiet -o " + path("pack.glb") + " --memory-limit ";
@@ -145,11 +158,7 @@ TEST_F(Bounds, AMemoryLimitHolds) {
 
 // Whatever is under way when memory ends: reading JSON and taking it apart again, Embree's tree and threads, pictures.
 TEST_F(Bounds, WhereMemoryEndsOneLineSaysSo) {
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-  GTEST_SKIP() << "left out: the sanitizer's own memory is beyond any such limit";
-#endif
-#endif
+  if (with_sanitizer > 1) GTEST_SKIP() << "left out: the sanitizer's own memory is beyond any such limit";
   const std::string scene = boxes(5000, false), pack = small_pack();
   for (int megabytes = 128; megabytes <= 512; megabytes += megabytes / 2) {
     expect_a_line_or_success(megabytes, "bake " + scene + " --grid 2 -o " + path("pack.glb"));

@@ -68,7 +68,7 @@ TEST_F(Commands, BakeReportsTheContractedKeys) {
   ASSERT_EQ(baked.status, 0) << baked.err;
   const json figures = json::parse(baked.out);
   for (const char* key : {"triangles", "vertices", "nodes", "photons", "rays", "seconds", "rays_per_second",
-                          "peak_memory", "pack_bytes", "bytes", "estimated_error", "warnings"})
+                          "expected_memory", "peak_memory", "pack_bytes", "bytes", "estimated_error", "warnings"})
     EXPECT_TRUE(figures.contains(key)) << key;
   EXPECT_EQ(keys_of(figures["seconds"]), (std::vector<std::string>{"geometry", "import", "light", "write"}));
   EXPECT_EQ(keys_of(figures["bytes"]), (std::vector<std::string>{"geometry", "light", "opening", "texture"}));

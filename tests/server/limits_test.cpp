@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "lightwell/server/pace.h"
+#include "tests/address_sanitizer.h"
 #include "tests/server/running_server.h"
 
 namespace lightwell {
@@ -126,18 +127,6 @@ std::chrono::duration<double> slowest_answer(uint16_t port) {
   return longest;
 }
 
-// The address sanitizer keeps freed memory and some around each piece, and takes its time for both.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr int with_sanitizer = 4;
-#else
-constexpr int with_sanitizer = 1;
-#endif
-#else
-constexpr int with_sanitizer = 1;
-#endif
-
-// Measured are 2 ms or less; a busy machine needs more.
 constexpr std::chrono::duration<double> promptly = with_sanitizer * 500ms;
 
 TEST_F(ServerLimits, ThousandsOfSlowClientsCostLittleAndHoldUpNobody) {
