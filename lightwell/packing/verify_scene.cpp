@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/verify_scene.h"
 
+#include <algorithm>
+
 #include "lightwell/asset/mesh_asset.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/scene/import_gltf.h"
@@ -12,6 +14,15 @@ Result<Scene> scene_at(const OpenedPack& pack, const MeshLevel& level) {
   Report report;
   LW_TRY(document, unpack_document(pack, level, report));
   return scene_from_document(std::move(document), "", report, pack.identity().origin, highest_image_limit);
+}
+
+// A scene of nothing can be neither traced nor looked at.
+Result<void> verify_something_is_shown(const Scene& scene) {
+  const auto has_faces = [&](const Instance& instance) {
+    return !scene.primitives[static_cast<size_t>(instance.primitive)].mesh.faces.empty();
+  };
+  if (std::ranges::any_of(scene.instances, has_faces)) return {};
+  return fail("scene", "it has no triangles");
 }
 
 // Whether a mesh lies in the bounds of the input, apart from rounding to the lattice (`step`).
@@ -68,6 +79,7 @@ Result<void> verify_sky(const OpenedPack& pack, const Scene& scene) {
 Result<void> verify_scene(const OpenedPack& pack) {
   LW_CHECK(scene_at(pack, {.share = 0}));
   LW_TRY(scene, scene_at(pack, {}));
+  LW_CHECK(verify_something_is_shown(scene));
   LW_CHECK(verify_bounds(pack, scene));
   LW_CHECK(verify_sky(pack, scene));
   return verify_images(pack, scene);

@@ -44,6 +44,7 @@ TEST(VerifyPack, HoldsTheJsonAgainstTheStreams) {
   EXPECT_EQ(errors(mesh + "error", 1000), 1u);
   EXPECT_EQ(errors(mesh + "bounds/max/0", -1000), 1u);
   EXPECT_EQ(errors("/extensions/LIGHTWELL_streams/version", 1), 1u);
+  EXPECT_EQ(errors("/scenes/0/nodes", Json::array()), 1u);  // nothing is shown
   EXPECT_EQ(errors("/extensions/LIGHTWELL_streams/id", "0"), 1u);
   EXPECT_EQ(errors("/extensions/LIGHTWELL_streams/exposure", 1e300), 1u);
 
