@@ -78,11 +78,10 @@ void advise_on_conventions(const ImportOptions& asked, const World& world, Repor
     report.warn("the scene seems to lie on its side: if the file's z axis points up, --up z says so");
 }
 
-Result<void> import_scene(const Options& options, ConsoleProgress& progress, Bake& bake) {
+Result<void> import_scene(const Options& options, Progress& progress, Bake& bake) {
   LW_TRY(opened, open_scene(options.scene, bake.report));
   bake.scene = std::move(opened.scene);
   bake.expected_memory = expected_memory(bake.scene, peak_memory());
-  progress.note("memory: up to about " + size_text(bake.expected_memory));
   LW_TRY(world, world_facing_light(bake.scene, options.scene.threads, progress, bake.report));
   bake.world = std::move(world);
   if (!opened.pack) advise_on_conventions(options.scene.import, *bake.world, bake.report);
@@ -204,6 +203,7 @@ Result<void> run(const Options& options, ConsoleProgress& progress, Bake& bake) 
   Stopwatch watch;
   progress.stage("importing", 0, "");
   LW_CHECK(import_scene(options, progress, bake));
+  progress.note("memory: up to about " + size_text(bake.expected_memory));
   bake.import_seconds = watch.lap();
   LW_CHECK(bake_grid(options, progress, bake));
   bake.light_seconds = watch.lap();

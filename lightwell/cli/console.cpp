@@ -74,6 +74,8 @@ bool ConsoleProgress::cancelled() const { return interrupted != 0; }
 void ConsoleProgress::stage(std::string_view name, double total, std::string_view unit) {
   finish();
   const std::lock_guard lock(mutex_);
+  if (enabled_ && !note_.empty()) std::fprintf(stderr, "%s\n", note_.c_str());
+  note_.clear();
   name_ = name;
   unit_ = unit;
   total_ = total;
@@ -123,11 +125,6 @@ void ConsoleProgress::finish() {
     std::fprintf(stderr, ", %s %s/s", scaled_number(total_ / seconds).c_str(), unit_.c_str());
   std::fputc('\n', stderr);
   name_.clear();
-}
-
-void ConsoleProgress::note(const std::string& line) {
-  finish();
-  if (enabled_ && !cancelled()) std::fprintf(stderr, "%s\n", line.c_str());
 }
 
 uint64_t peak_memory() {

@@ -37,8 +37,8 @@ class ConsoleProgress : public Progress {
   void stage(std::string_view name, double total, std::string_view unit) override;
   void advance(double done) override;
   bool cancelled() const override;
-  /// Ends the last stage and prints a line of its own.
-  void note(const std::string& line);
+  /// A line of its own between this stage and the next. Not printed after a failure, of which only the error is shown.
+  void note(const std::string& line) { note_ = line; }
   /// Ends the last stage and prints its time. Not called after a failure, of which only the error is shown.
   void finish();
 
@@ -51,6 +51,7 @@ class ConsoleProgress : public Progress {
   bool terminal_;
   std::string name_;
   std::string unit_;
+  std::string note_;
   double total_ = 0;
   double done_ = 0;
   std::chrono::steady_clock::time_point start_;
