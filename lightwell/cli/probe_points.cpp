@@ -59,6 +59,8 @@ Result<ListedPoint> read_point(std::string_view line, const std::array<size_t, 6
   const Vec3d normal = normalized(Vec3d{{numbers[3], numbers[4], numbers[5]}});
   ListedPoint point{{{numbers[0], numbers[1], numbers[2]}}, normal.cast<float>()};
   if (!(length(point.normal) > 0)) return fail("", "its normal has no direction");
+  // From farther away the squares of distances leave the range of floats.
+  if (!(length(point.position) <= 1e12)) return fail("", "lies farther than 1e12 m away");
   return point;
 }
 

@@ -8,6 +8,7 @@
 
 #include "lightwell/gltf/accessor.h"
 #include "lightwell/gltf/pose.h"
+#include "lightwell/scene/finish_mesh.h"
 #include "lightwell/scene/import_gltf_light.h"
 #include "lightwell/scene/import_gltf_material.h"
 #include "lightwell/scene/noted_sky.h"
@@ -132,6 +133,7 @@ class Importer {
     count_from(origin ? *origin : found_origin());
     read_lamps_and_cameras();
     read_sky();
+    far_.warn(report_, "its lamp or camera stands farther than 1e9 m away; left out");
     flat_.warn(report_, "its transform flattens what it holds; left out of the bake");
     hidden_.warn(report_, "is not visible (KHR_node_visibility); left out of the bake");
     lost_joints_.warn(report_, "is a joint that the scene does not show; taken to be at the origin");
@@ -369,8 +371,15 @@ class Importer {
   void read_lamps_and_cameras() {
     const Json& json = scene_.document.json;
     for (const auto& [node, to_scene] : lamps_and_cameras_) {
-      if (auto lamp = read_lamp(json, node, to_scene, report_)) scene_.lamps.push_back(std::move(*lamp));
-      if (auto camera = read_camera(json, node, to_scene, report_)) scene_.cameras.push_back(std::move(*camera));
+      auto lamp = read_lamp(json, node, to_scene, report_);
+      auto camera = read_camera(json, node, to_scene, report_);
+      const bool far = !(max_component(max(to_scene.t, -to_scene.t)) <= farthest_position);
+      if (far && (camera || (lamp && lamp->kind != Lamp::Kind::sun))) {
+        far_.add(element_name("nodes", static_cast<size_t>(node)));
+        continue;
+      }
+      if (lamp) scene_.lamps.push_back(std::move(*lamp));
+      if (camera) scene_.cameras.push_back(std::move(*camera));
     }
   }
 
@@ -389,7 +398,7 @@ class Importer {
   std::vector<std::pair<int, Transform>> lamps_and_cameras_;
   Allowance allowed_;
   size_t faces_ = 0, corners_ = 0, placed_ = 0, placed_faces_ = 0;
-  Tally flat_, hidden_, lost_joints_, undrawable_;
+  Tally far_, flat_, hidden_, lost_joints_, undrawable_;
 };
 
 }  // namespace

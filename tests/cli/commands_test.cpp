@@ -378,6 +378,13 @@ TEST_F(Commands, AGridAnswersForTheSkyItWasBakedUnderOnly) {
 }
 
 // In a furnace of albedo rho and emission Le every point receives pi Le rho / (1 - rho) of bounced light: pi here.
+TEST_F(Commands, APointFromWhichNoRayGoesIsRefused) {
+  write("points.csv", "x,y,z,nx,ny,nz\n0,1,0,0,1,0\n1e19,1,0.5,1,0,0\n");
+  const Outcome refused = run("probe box-small --spp 4 --quiet --points " + path("points.csv"));
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.err, "lightwell: " + path("points.csv") + ": line 3: lies farther than 1e12 m away\n");
+}
+
 TEST_F(Commands, ProbeMeasuresTheFurnace) {
   write("points.csv", "x,y,z,nx,ny,nz\n1,1,1,0,1,0\n0.7,0.6,1.3,1,0,0\n1.2,1.1,0.4,0.6,0,-0.8\n");
   for (const std::string integrator : {"path --spp 400", "ivg --photons 2M --grid 8"}) {

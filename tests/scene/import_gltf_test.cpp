@@ -272,6 +272,25 @@ TEST(ImportGltf, ScenesFarAwayAreCountedFromAnOriginNearby) {
   EXPECT_EQ(again->origin, (Vec3d{{13000000, 0, 0}}));
 }
 
+// From so far away no ray's length is a float any more. A sun has no place.
+TEST(ImportGltf, LampsAndCamerasBeyondNumbersAreLeftOut) {
+  Document document = scene_document(R"([{"mesh": 0},
+      {"translation": [0, 1e19, 0], "camera": 0},
+      {"translation": [0, 1e19, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
+      {"translation": [0, 1e19, 0], "extensions": {"KHR_lights_punctual": {"light": 1}}}])",
+                                     {0, 1, 2, 3});
+  document.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])");
+  document.json["extensions"]["KHR_lights_punctual"]["lights"] =
+      Json::parse(R"([{"type": "point"}, {"type": "directional"}])");
+  Report report;
+  const Scene scene = import(document, report);
+  EXPECT_TRUE(scene.cameras.empty());
+  ASSERT_EQ(scene.lamps.size(), 1u);
+  EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::sun);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0], "nodes[1] and 1 more: its lamp or camera stands farther than 1e9 m away; left out");
+}
+
 TEST(ImportGltf, LinesAreCopiedWithAWarning) {
   Document document = scene_document(R"([{"mesh": 0}])", {0});
   document.json["meshes"][0]["primitives"][0]["mode"] = 1;
