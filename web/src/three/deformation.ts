@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { BufferAttribute, Mesh, SkinnedMesh } from 'three';
+import type { BufferAttribute, BufferGeometry, Mesh, SkinnedMesh } from 'three';
 import type { GLTF } from 'three/addons/loaders/GLTFLoader.js';
 import type { ProgressivePrimitive } from './opening.js';
 
@@ -17,8 +17,10 @@ const MARGIN = 0.1;
 export async function prepareDeformation(primitives: Iterable<ProgressivePrimitive>, { parser, scene }: GLTF): Promise<void> {
   const read = (accessor: number) => parser.getDependency('accessor', accessor) as Promise<BufferAttribute>;
   scene.updateMatrixWorld(true);
-  for (const { extension, base, meshes } of primitives) {
+  for (const primitive of primitives) {
+    const { extension, base, meshes } = primitive;
     if (extension.deformation === undefined) continue;
+    primitive.bend = (to) => handOver(base, to);
     const { attributes, targets } = extension.deformation;
     for (const mesh of meshes.filter(isSkinned)) boundInPose(mesh);
     for (const [name, semantic] of Object.entries(SKIN))
@@ -28,6 +30,16 @@ export async function prepareDeformation(primitives: Iterable<ProgressivePrimiti
         base.morphAttributes[name] = await Promise.all(targets.map((target) => read(target[semantic]!)));
     for (const mesh of meshes.filter(isSkinned)) mesh.normalizeSkinWeights();
   }
+}
+
+function handOver(from: BufferGeometry, to: BufferGeometry): void {
+  for (const name of Object.keys(SKIN)) {
+    if (!from.hasAttribute(name)) continue;
+    to.setAttribute(name, from.getAttribute(name));
+    from.deleteAttribute(name);
+  }
+  to.morphAttributes = from.morphAttributes;
+  to.morphTargetsRelative = from.morphTargetsRelative;
 }
 
 const isSkinned = (mesh: Mesh): mesh is SkinnedMesh => 'isSkinnedMesh' in mesh;

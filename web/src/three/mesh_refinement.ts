@@ -62,7 +62,6 @@ export class MeshRefinement implements Refinement {
       const source = base.getAttribute(name);
       if (source !== undefined) copyElements(source as BufferAttribute, this.#attributes[i]!);
     });
-    takeDeformation(base, this.geometry);
     this.#index = new HalfBuffers(3 * layout.faces);
     const baseIndices = base.index?.array ?? Uint32Array.from({ length: base.getAttribute('position').count }, (_, i) => i);
     this.#index.initialise(baseIndices);
@@ -188,17 +187,6 @@ function allocate(layout: AttributeLayout, vertices: number): BufferAttribute {
   const ArrayType = COMPONENT_ARRAYS[layout.component];
   const itemSize = layout.stride / ArrayType.BYTES_PER_ELEMENT;
   return new BufferAttribute(new ArrayType(vertices * itemSize) as TypedArray, itemSize, layout.normalized);
-}
-
-/** What bends the final level's vertices goes from what is drawn first to what is drawn from now on. */
-function takeDeformation(from: BufferGeometry, to: BufferGeometry): void {
-  for (const name of ['skinIndex', 'skinWeight']) {
-    if (!from.hasAttribute(name)) continue;
-    to.setAttribute(name, from.getAttribute(name));
-    from.deleteAttribute(name);
-  }
-  to.morphAttributes = from.morphAttributes;
-  to.morphTargetsRelative = from.morphTargetsRelative;
 }
 
 /** Copies as many elements as both have, whatever the types of their numbers. */

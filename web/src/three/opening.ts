@@ -14,6 +14,8 @@ export interface ProgressivePrimitive {
   extension: ProgressiveMeshExtension;
   meshes: Mesh[];
   base: BufferGeometry;
+  /** Hands what bends its vertices over from the base to the geometry that takes its place. */
+  bend?: (to: BufferGeometry) => void;
 }
 
 /** An image that a stream refines: the textures that show it, and the meshes whose materials have these. */

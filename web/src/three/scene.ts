@@ -414,6 +414,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const bounds = new Box3(new Vector3(...min), new Vector3(...max));
     if (primitive.base.boundingBox) bounds.union(primitive.base.boundingBox);
     const refinement = new MeshRefinement(layout, primitive.base, bounds);
+    primitive.bend?.(refinement.geometry);
     for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
     this.#handOver.run([refinement.geometry]);
     primitive.base.dispose();
