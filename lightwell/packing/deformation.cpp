@@ -62,10 +62,10 @@ std::vector<uint16_t> shares_of(const std::vector<float>& weights) {
 template <typename Visit>
 Result<void> for_each(const DeformationAccessors& accessors, const Visit& visit) {
   for (const auto& [semantic, accessor] : accessors.attributes)
-    LW_CHECK(visit(Json::json_pointer("/attributes/" + semantic), semantic, accessor));
+    LW_CHECK(visit(Json::json_pointer("/attributes") / semantic, semantic, accessor));
   for (size_t i = 0; i < accessors.targets.size(); i++)
     for (const auto& [semantic, accessor] : accessors.targets[i])
-      LW_CHECK(visit(Json::json_pointer("/targets/" + std::to_string(i) + "/" + semantic), semantic, accessor));
+      LW_CHECK(visit(Json::json_pointer("/targets") / i / semantic, semantic, accessor));
   return {};
 }
 
@@ -78,8 +78,10 @@ Result<Deformation> Deformation::read(const Document& document, const Json& prim
   for (const auto& [semantic, accessor] : member(primitive, "attributes").items()) {
     if (!bends(semantic)) continue;
     LW_TRY(data, locate(document, static_cast<int>(whole_number(accessor))));
+    std::string place = name + ".attributes.";
+    place += semantic;
     if (data.type.rows != 4 || data.type.columns != 1 || data.count != rows)
-      return fail(name + ".attributes." + semantic, "is of a type or count that it cannot have");
+      return fail(place, "is of a type or count that it cannot have");
     read.attributes_.push_back({semantic, data.type, std::vector<uint8_t>(rows * data.type.size())});
     Array& array = read.attributes_.back();
     for (size_t i = 0; i < rows; i++)

@@ -15,7 +15,8 @@ Result<Accessors> read_accessors(const Json& json, const std::string& name,
                                  std::initializer_list<const char*> semantics) {
   MemberReader reader(json, name);
   Accessors accessors;
-  for (const auto& [semantic, accessor] : json.items()) {
+  for (const auto& item : json.items()) {
+    const std::string& semantic = item.key();
     const bool known = std::ranges::any_of(semantics, [&](const char* start) { return semantic.starts_with(start); });
     if (!known) return fail(name, "an attribute that bends nothing: " + semantic.substr(0, 40));
     accessors[semantic] = static_cast<int>(reader.whole(semantic.c_str()));
