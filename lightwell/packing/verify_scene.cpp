@@ -41,9 +41,13 @@ Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
           primitive.source_primitive != static_cast<int>(refined.primitive))
         continue;
       LW_TRY(mesh, open_asset_as<MeshAsset>(pack.reader(), refined.stream));
-      Report known;
-      LW_TRY(finest, read_primitive(scene.document, primitive.source_mesh, primitive.source_primitive, known));
-      if (!holds(refined.bounds, finest, mesh->layout().positions.step()))
+      Mesh at_rest;  // of what deforms, which the scene has in its pose
+      if (primitive.deforming) {
+        Report known;
+        LW_TRY(read, read_primitive(scene.document, primitive.source_mesh, primitive.source_primitive, known));
+        at_rest = std::move(read);
+      }
+      if (!holds(refined.bounds, primitive.deforming ? at_rest : primitive.mesh, mesh->layout().positions.step()))
         return fail(element_name("meshes", refined.mesh) + "." + element_name("primitives", refined.primitive),
                     "the bounds in " + std::string(mesh_extension) + " do not hold its final level");
     }

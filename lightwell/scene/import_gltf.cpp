@@ -374,12 +374,10 @@ class Importer {
       auto lamp = read_lamp(json, node, to_scene, report_);
       auto camera = read_camera(json, node, to_scene, report_);
       const bool far = !(max_component(max(to_scene.t, -to_scene.t)) <= farthest_position);
-      if (far && (camera || (lamp && lamp->kind != Lamp::Kind::sun))) {
-        far_.add(element_name("nodes", static_cast<size_t>(node)));
-        continue;
-      }
-      if (lamp) scene_.lamps.push_back(std::move(*lamp));
-      if (camera) scene_.cameras.push_back(std::move(*camera));
+      const bool sun = lamp && lamp->kind == Lamp::Kind::sun;  // it has no place
+      if (far && (camera || (lamp && !sun))) far_.add(element_name("nodes", static_cast<size_t>(node)));
+      if (lamp && (sun || !far)) scene_.lamps.push_back(std::move(*lamp));
+      if (camera && !far) scene_.cameras.push_back(std::move(*camera));
     }
   }
 

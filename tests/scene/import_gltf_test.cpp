@@ -277,7 +277,7 @@ TEST(ImportGltf, LampsAndCamerasBeyondNumbersAreLeftOut) {
   Document document = scene_document(R"([{"mesh": 0},
       {"translation": [0, 1e19, 0], "camera": 0},
       {"translation": [0, 1e19, 0], "extensions": {"KHR_lights_punctual": {"light": 0}}},
-      {"translation": [0, 1e19, 0], "extensions": {"KHR_lights_punctual": {"light": 1}}}])",
+      {"translation": [0, 1e19, 0], "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 1}}}])",
                                      {0, 1, 2, 3});
   document.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}])");
   document.json["extensions"]["KHR_lights_punctual"]["lights"] =
@@ -288,7 +288,7 @@ TEST(ImportGltf, LampsAndCamerasBeyondNumbersAreLeftOut) {
   ASSERT_EQ(scene.lamps.size(), 1u);
   EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::sun);
   ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_EQ(report.warnings[0], "nodes[1] and 1 more: its lamp or camera stands farther than 1e9 m away; left out");
+  EXPECT_EQ(report.warnings[0], "nodes[1] and 2 more: its lamp or camera stands farther than 1e9 m away; left out");
 }
 
 TEST(ImportGltf, LinesAreCopiedWithAWarning) {
