@@ -3,8 +3,8 @@
 # The rooms and their arrows, once. docs/architecture.md says what each room knows; the test
 # "arrows" fails when an include runs against this table.
 lightwell_room(base LIBRARIES Threads::Threads tl::expected
-               BAKER_ONLY parallel_threads.cpp file.cpp fingerprint.cpp BAKER_LIBRARIES ZLIB::ZLIB)
-lightwell_room(mesh DEPENDS base BAKER_ONLY connected_faces.cpp winding.cpp quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
+               BAKER_ONLY parallel_threads.cpp gzip.cpp file.cpp fingerprint.cpp BAKER_LIBRARIES ZLIB::ZLIB)
+lightwell_room(mesh DEPENDS base BAKER_ONLY connected_faces.cpp part_table.cpp winding.cpp quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
 lightwell_room(texture DEPENDS base
                BAKER_ONLY bmp_tga_file.cpp image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp
                BAKER_LIBRARIES PNG::PNG JPEG::JPEG PkgConfig::WEBP)

@@ -43,7 +43,8 @@ lightwell_wasm_objects(wasm_objects ${wasm_sources})
 find_program(LIGHTWELL_WASM_OPT wasm-opt)
 set(wasm_shorten "")
 if(LIGHTWELL_WASM_OPT)
-  set(wasm_shorten COMMAND ${LIGHTWELL_WASM_OPT} -Oz --low-memory-unused ${wasm_module} -o ${wasm_module})
+  set(wasm_shorten COMMAND ${LIGHTWELL_WASM_OPT} --strip-target-features -Oz --flatten --rereloop -Oz -Oz --low-memory-unused
+                           ${wasm_module} -o ${wasm_module})
 endif()
 # What is inlined is what gets shorter by it (docs/decisions/008-size-of-the-page.md): -Oz alone inlines more at this point.
 add_custom_command(OUTPUT ${wasm_module}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/asset/codecs.h"
 
+#include "lightwell/asset/parts_asset.h"
 #include "lightwell/light/lattice_stream.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/stream.h"
@@ -21,6 +22,7 @@ constexpr Codec codecs[] = {
     {StreamKind::light, light_codec_lattice, open_light_lattice},
     {StreamKind::bricks, bricks_codec_lattice, open_light_bricks},
     {StreamKind::mesh, mesh_codec_splits, open_mesh_splits},
+    {StreamKind::parts, parts_codec_gzip, open_parts_file},
     {StreamKind::texture, texture_codec_file, open_texture_file},
 };
 

@@ -28,8 +28,8 @@ struct AssetContext {
 /// size is allocated.
 Result<std::unique_ptr<AssetDecoder>> open_asset(const Directory& directory, uint32_t stream, AssetContext& context);
 
-/// The same for a stream of a given kind: MeshAsset, LightAsset or TextureAsset. Also fails when there is no such
-/// stream or it is of another kind.
+/// The same for a stream of a given kind: MeshAsset, LightAsset, TextureAsset or PartsAsset. Also fails when there is
+/// no such stream or it is of another kind.
 template <typename Kind>
 Result<std::unique_ptr<Kind>> open_asset_as(const Directory& directory, size_t stream, AssetContext& context) {
   if (stream >= directory.streams.size() || directory.streams[stream].kind != Kind::kind)
@@ -46,11 +46,13 @@ struct AssetSource {
   AssetContext& context;
 };
 
-// Each has a file of its own: light_bricks.cpp, light_lattice.cpp, light_slices.cpp, mesh_splits.cpp, texture_file.cpp.
+// Each has a file of its own: light_bricks.cpp, light_lattice.cpp, light_slices.cpp, mesh_splits.cpp, parts_file.cpp,
+// texture_file.cpp.
 Result<std::unique_ptr<AssetDecoder>> open_light_bricks(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_light_lattice(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_light_slices(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_mesh_splits(const AssetSource& source);
+Result<std::unique_ptr<AssetDecoder>> open_parts_file(const AssetSource& source);
 Result<std::unique_ptr<AssetDecoder>> open_texture_file(const AssetSource& source);
 
 }  // namespace lightwell

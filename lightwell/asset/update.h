@@ -79,6 +79,13 @@ struct TextureUpdate {
   Bytes file;
 };
 
+/// What the file said of the parts that meshes were merged from, complete: a gzip file of JSON (docs/format.md).
+struct PartsUpdate {
+  uint32_t asset = 0;
+  uint32_t inflated = 0;  ///< bytes of the JSON
+  Bytes file;
+};
+
 /// Everything has been received and taken.
 struct CompleteUpdate {};
 
@@ -98,6 +105,6 @@ struct FailureUpdate {
 };
 
 using Update = std::variant<OpeningUpdate, MeshUpdate, RangeUpdate, DrawUpdate, LightUpdate, TextureUpdate,
-                            CompleteUpdate, FailureUpdate>;
+                            CompleteUpdate, FailureUpdate, PartsUpdate>;
 
 }  // namespace lightwell

@@ -5,13 +5,14 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <random>
 #include <system_error>
+
+#include "lightwell/base/gzip.h"
 
 namespace lightwell {
 namespace fs = std::filesystem;
@@ -27,37 +28,6 @@ constexpr size_t most_inflation = 200;
 constexpr size_t free_inflation = size_t(1) << 24;
 
 std::string reason(int code) { return std::generic_category().message(code); }
-
-// Inflates all members of a gzip file, which follow one another (RFC 1952, section 2.2).
-Result<std::vector<uint8_t>> inflate_gzip(Bytes packed, size_t limit) {
-  z_stream stream{};
-  if (inflateInit2(&stream, 15 + 16) != Z_OK) return fail(ErrorKind::limit, "gzip", "out of memory");
-  std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
-  std::vector<uint8_t> bytes;
-  std::vector<uint8_t> chunk(size_t(1) << 20);
-  size_t at = 0;
-  for (bool more = true; more;) {
-    if (stream.avail_in == 0 && at < packed.size()) {
-      const size_t now = std::min<size_t>(packed.size() - at, size_t(1) << 30);
-      stream.next_in = const_cast<Bytef*>(packed.data() + at);
-      stream.avail_in = static_cast<uInt>(now);
-      at += now;
-    }
-    stream.next_out = chunk.data();
-    stream.avail_out = static_cast<uInt>(chunk.size());
-    const int status = inflate(&stream, Z_NO_FLUSH);
-    if (status != Z_OK && status != Z_STREAM_END)
-      return fail("gzip", status == Z_BUF_ERROR ? "the file ends too early" : "damaged data");
-    const size_t produced = chunk.size() - stream.avail_out;
-    if (bytes.size() + produced > limit)
-      return fail(ErrorKind::limit, "gzip", "inflates to more than " + std::to_string(limit) + " bytes");
-    bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<ptrdiff_t>(produced));
-    if (status != Z_STREAM_END) continue;
-    more = stream.avail_in > 0 || at < packed.size();
-    inflateReset(&stream);
-  }
-  return bytes;
-}
 
 Result<void> write_all(std::FILE* file, const std::function<Result<void>(const std::function<bool(Bytes)>&)>& fill) {
   LW_CHECK(fill([&](Bytes bytes) { return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size(); }));
@@ -200,7 +170,7 @@ Result<std::vector<uint8_t>> read_file(const std::filesystem::path& path, bool i
   }
   if (std::ferror(file.get())) return fail({path.string(), "", "cannot be read", ErrorKind::io});
   if (!inflate || bytes.size() < 2 || bytes[0] != 0x1f || bytes[1] != 0x8b) return bytes;
-  auto plain = inflate_gzip(bytes, std::min(limit, free_inflation + most_inflation * bytes.size()));
+  auto plain = gunzip(bytes, std::min(limit, free_inflation + most_inflation * bytes.size()));
   if (!plain) return fail(in_file(plain.error(), path.string()));
   return plain;
 }

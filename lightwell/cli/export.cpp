@@ -43,6 +43,7 @@ using Figures = nlohmann::ordered_json;
 
 Result<void> write_geometry(const Options& options, const OpenedPack& pack, Report& report, Figures& figures) {
   LW_TRY(document, unpack_document(pack, options.level, report));
+  LW_CHECK(unpack_parts(pack, document));
   LW_TRY(scene, scene_from_document(document, "", report, pack.identity().origin, highest_image_limit));
   size_t vertices = 0, faces = 0;
   for (const Primitive& primitive : scene.primitives) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lightwell/asset/asset.h"
+#include "lightwell/packing/restore_parts.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/texture/image_format.h"
 
@@ -47,6 +48,9 @@ void ReceivedScene::apply(const Update& update) {
     meshes_[draw->asset].faces = draw->faces;
   } else if (const auto* texture = std::get_if<TextureUpdate>(&update)) {
     images_[texture->asset].assign(texture->file.begin(), texture->file.end());
+  } else if (const auto* parts = std::get_if<PartsUpdate>(&update)) {
+    parts_.assign(parts->file.begin(), parts->file.end());
+    parts_inflated_ = parts->inflated;
   }
 }
 
@@ -100,7 +104,16 @@ Result<std::vector<uint8_t>> ReceivedScene::glb() const {
                                     const auto found = images_.find(asset_of_stream(static_cast<uint32_t>(stream)));
                                     return found == images_.end() ? std::vector<uint8_t>() : found->second;
                                   }};
+  LW_TRY(parts, read_parts_description(document.json));
+  LW_TRY(identity, read_identity(document.json));
   LW_CHECK(refine_document(document, refinement));
+  if (parts && !parts_.empty()) {
+    LW_TRY(file, read_parts_file(parts_, parts_inflated_));
+    const auto final_level = [&](size_t primitive) {
+      return read_primitive(document, static_cast<int>(parts->meshes), static_cast<int>(primitive), report);
+    };
+    LW_CHECK(restore_parts(document, *parts, std::move(file), final_level, identity.origin));
+  }
   return write_glb(std::move(document), report);
 }
 

@@ -33,6 +33,8 @@ class ReceivedScene {
   std::vector<uint8_t> opening_;
   std::map<uint32_t, Buffers> meshes_;  ///< by asset
   std::map<uint32_t, std::vector<uint8_t>> images_;
+  std::vector<uint8_t> parts_;  ///< their file, which comes last
+  uint32_t parts_inflated_ = 0;
 };
 
 }  // namespace lightwell

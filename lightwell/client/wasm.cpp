@@ -61,6 +61,9 @@ struct WriteUpdate {
     return answer(6, update.asset, update.format, update.width, update.height, address(update.file.data()),
                   update.file.size());
   }
+  uint32_t operator()(const PartsUpdate& update) {
+    return answer(9, update.asset, update.inflated, address(update.file.data()), update.file.size());
+  }
   uint32_t operator()(const CompleteUpdate&) { return answer(7); }
   uint32_t operator()(const FailureUpdate& update) {
     message = update.message;

@@ -63,6 +63,7 @@ uint32_t lw_work(uint32_t client);
 ///                an image file
 ///   7 complete
 ///   8 failure:   [0] reason (0 unreadable, 1 replaced, 2 refused), [1] pointer, [2] length: a message, UTF-8
+///   9 parts:     [0] asset, [1] bytes of the JSON, [2] pointer, [3] length: a gzip file of it
 // clang-format on
 uint32_t lw_take(uint32_t client, uint32_t budget);
 

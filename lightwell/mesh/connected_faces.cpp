@@ -45,4 +45,16 @@ std::vector<uint32_t> connected_faces(const Mesh& mesh) {
   return pieces;
 }
 
+std::vector<uint32_t> joined_vertices(const Mesh& mesh) {
+  std::vector<uint32_t> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (const Face& face : mesh.faces)
+    for (const uint32_t corner : {face[1], face[2]}) {
+      const auto [least, other] = std::minmax({root(parent, face[0]), root(parent, corner)});
+      parent[other] = least;
+    }
+  for (uint32_t v = 0; v < parent.size(); v++) parent[v] = root(parent, v);
+  return parent;
+}
+
 }  // namespace lightwell

@@ -12,4 +12,8 @@ std::vector<uint32_t> welded_vertices(const std::vector<Vec3f>& positions);
 /// faces. Faces are connected by corners at the same position.
 std::vector<uint32_t> connected_faces(const Mesh& mesh);
 
+/// For each vertex, the least one that faces join it to, directly or through others. Two vertices at one position are
+/// not joined by that.
+std::vector<uint32_t> joined_vertices(const Mesh& mesh);
+
 }  // namespace lightwell

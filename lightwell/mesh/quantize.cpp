@@ -40,12 +40,14 @@ Lattice lattice_for(int wanted, const Extent& extent) {
   return {static_cast<int8_t>(std::clamp(exponent, Lattice::min_exponent, Lattice::max_exponent))};
 }
 
+// Of the finest step of which a side has no more than the codes of 14 bits.
+int default_exponent(double side) { return std::ilogb(side / ((1 << default_bits) - 1)) + 1; }
+
 Lattice position_lattice(const Extent& extent, const QuantizeOptions& options) {
   if (!(extent.side > 0)) return lattice_for(Lattice::min_exponent, extent);
   if (options.position_error > 0)
     return lattice_for(std::ilogb(std::min(2.0 * options.position_error, extent.side / (1 << least_bits))), extent);
-  // The finest step of which the longest side has no more than the codes of 14 bits.
-  return lattice_for(std::ilogb(extent.side / ((1 << default_bits) - 1)) + 1, extent);
+  return lattice_for(default_exponent(extent.side), extent);
 }
 
 // The lowest 21 bits of x with two zeros between neighbours.
@@ -107,6 +109,8 @@ void append(QuantizedMesh& out, const Tuple& t, const Mesh& mesh, bool has_rows)
 }
 
 }  // namespace
+
+float usual_position_error(float side) { return side > 0 ? std::ldexp(0.5f, default_exponent(side)) : 0; }
 
 Result<QuantizedMesh> quantize(const Mesh& mesh, const QuantizeOptions& options) {
   std::vector<bool> used(mesh.positions.size());

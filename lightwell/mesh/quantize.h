@@ -22,6 +22,9 @@ struct QuantizeOptions {
   std::span<const uint32_t> rows = {};
 };
 
+/// The position_error that stands for the default of a mesh whose bounding box has that longest side.
+float usual_position_error(float side);
+
 /// A mesh in integers: positions and texcoords on lattices, normals on the octahedral grid, colours in 8 bits. Its
 /// vertices are the distinct tuples that faces use; all faces of the input are kept, also degenerate and repeated ones.
 /// Absent attributes are empty.

@@ -60,6 +60,7 @@ const char* to_text(StreamKind kind) {
     case StreamKind::mesh: return "mesh";
     case StreamKind::texture: return "texture";
     case StreamKind::bricks: return "bricks";
+    case StreamKind::parts: return "parts";
   }
   LW_ASSERT(false);
 }

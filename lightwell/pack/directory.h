@@ -34,9 +34,10 @@ enum class StreamKind : uint8_t {
   light = 0,
   mesh = 1,
   texture = 2,
-  bricks = 3  ///< finer cells of a part of a light grid, whose stream comes before
+  bricks = 3,  ///< finer cells of a part of a light grid, whose stream comes before
+  parts = 4    ///< what the file said of the parts that meshes were merged from
 };
-constexpr int stream_kinds = 4;
+constexpr int stream_kinds = 5;
 constexpr bool is_light(StreamKind kind) { return kind == StreamKind::light || kind == StreamKind::bricks; }
 
 /// A row of a block table.
@@ -89,7 +90,7 @@ uint32_t block_check(Bytes payload, const PackId& id);
 /// The payload of a block or page, given as it lies in the file; empty when its check fails or it has no payload.
 Bytes checked_payload(Bytes block, const PackId& id);
 
-/// The kind's name in messages and reports: "light", "mesh", "texture" or "bricks".
+/// The kind's name in messages and reports: "light", "mesh", "texture", "bricks" or "parts".
 const char* to_text(StreamKind kind);
 
 }  // namespace lightwell

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/opened_pack.h"
 
+#include <span>
+
 #include "lightwell/pack/opening.h"
 #include "lightwell/pack/self_contained.h"
 #include "lightwell/packing/lamps_extension.h"
@@ -34,12 +36,14 @@ Result<void> OpenedPack::read_json() {
   LW_TRY(lamps, read_lamps(json_));
   LW_TRY(primitives, read_refined_primitives(json_));
   LW_TRY(textures, read_refined_textures(json_));
+  LW_TRY(parts, read_parts_description(json_));
   LW_TRY(environment, read_environment_picture(json_));
   identity_ = std::move(identity);
   grids_ = std::move(grids);
   lamps_ = std::move(lamps);
   primitives_ = std::move(primitives);
   textures_ = std::move(textures);
+  parts_ = parts;
   environment_ = environment;
   return {};
 }
@@ -55,6 +59,7 @@ Result<void> OpenedPack::check_streams() const {
   LW_CHECK(check(grids_, StreamKind::light, grids_extension));
   for (const GridDescription& grid : grids_) LW_CHECK(check(grid.bricks, StreamKind::bricks, grids_extension));
   LW_CHECK(check(primitives_, StreamKind::mesh, mesh_extension));
+  if (parts_) LW_CHECK(check(std::span(&*parts_, 1), StreamKind::parts, parts_extension));
   return check(textures_, StreamKind::texture, texture_extension);
 }
 

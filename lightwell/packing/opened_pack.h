@@ -8,6 +8,7 @@
 #include "lightwell/packing/environment_extension.h"
 #include "lightwell/packing/grids_extension.h"
 #include "lightwell/packing/mesh_extension.h"
+#include "lightwell/packing/parts_file.h"
 #include "lightwell/packing/streams_extension.h"
 #include "lightwell/packing/texture_extension.h"
 #include "lightwell/scene/client_lamp.h"
@@ -36,6 +37,8 @@ class OpenedPack {
   const std::vector<ClientLamp>& lamps() const { return lamps_; }
   const std::vector<RefinedPrimitive>& primitives() const { return primitives_; }
   const std::vector<RefinedTexture>& textures() const { return textures_; }
+  /// Where the parts are that its last mesh was merged from, if it was.
+  const std::optional<PartsDescription>& parts() const { return parts_; }
   /// The picture of what surrounds the scene, where that has one.
   const std::optional<EnvironmentPicture>& environment() const { return environment_; }
 
@@ -51,6 +54,7 @@ class OpenedPack {
   std::vector<ClientLamp> lamps_;
   std::vector<RefinedPrimitive> primitives_;
   std::vector<RefinedTexture> textures_;
+  std::optional<PartsDescription> parts_;
   std::optional<EnvironmentPicture> environment_;
 };
 

@@ -56,6 +56,12 @@ OpeningBudget OpeningBudget::of(size_t meshes, float scene_size) {
   return {usual, std::clamp<uint64_t>(each * meshes, usual, most), scene_size / 50};
 }
 
+OpeningBudget OpeningBudget::beside(uint64_t rest) {
+  constexpr uint64_t request = 62 << 10, least = 16 << 10;
+  const uint64_t left = std::max(least, request - std::min(request, rest));
+  return {left, left, 0};
+}
+
 std::vector<size_t> share_opening(const std::vector<std::vector<OpeningForm>>& meshes, const OpeningBudget& budget) {
   std::vector<size_t> chosen;
   uint64_t taken = 0;

@@ -30,6 +30,9 @@ struct OpeningBudget {
   /// `scene_size` (metres); up to it, the budget is 1.5 KB a mesh, from 40 to 256 KB, since scenes of many parts are
   /// unrecognisable with less.
   static OpeningBudget of(size_t meshes, float scene_size);
+  /// Of a scene whose parts are merged: what `rest` bytes of the opening, an estimate, leave of that request,
+  /// at least 16 KB.
+  static OpeningBudget beside(uint64_t rest);
 };
 
 /// Chooses a form for each mesh and returns its index in opening_forms(). Starts from the coarsest forms and repeatedly

@@ -63,6 +63,12 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   use_extension(json, grids_extension);
   json["extensions"][lamps_extension] = to_json(light.lamps);
   use_extension(json, lamps_extension);
+  if (content.parts) {
+    const auto all_but_last = [&](const char* array) { return static_cast<uint32_t>(json[array].size() - 1); };
+    json["extensions"][parts_extension] = to_json(
+        PartsDescription{static_cast<uint32_t>(content.parts_stream()), all_but_last("nodes"), all_but_last("meshes")});
+    use_extension(json, parts_extension);
+  }
   if (!content.environment) return;
   json["extensions"][environment_extension] = to_json(*content.environment);
   use_extension(json, environment_extension);

@@ -9,8 +9,8 @@
 
 #include "lightwell/base/parallel.h"
 #include "lightwell/gltf/pose.h"
+#include "lightwell/mesh/part_table.h"
 #include "lightwell/mesh/progressive.h"
-#include "lightwell/packing/opening_budget.h"
 
 namespace lightwell {
 namespace {
@@ -47,6 +47,7 @@ struct Source {
   float scale = 0;  // the largest factor by which an instance, or its pose, stretches its lengths
   const Mesh* posed = nullptr;
   std::optional<DeformingMesh> deforming = {};
+  const MergedMesh* merged = nullptr;
 
   const Mesh& mesh() const { return deforming ? deforming->mesh : *posed; }
 };
@@ -68,7 +69,7 @@ std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive&
 
 // What deforms is there once, whatever poses it is shown in, and stays whole where its arrays are not as they should
 // be.
-std::vector<Source> sources(const Scene& scene) {
+std::vector<Source> sources(const Scene& scene, const std::optional<MergedParts>& merged) {
   const std::vector<float> scales = largest_scales(scene);
   std::set<std::pair<int, int>> seen;
   std::vector<Source> found;
@@ -76,6 +77,7 @@ std::vector<Source> sources(const Scene& scene) {
     const Primitive& primitive = scene.primitives[i];
     if (primitive.mesh.faces.empty()) continue;
     Source source{static_cast<int>(i), scales[i], &primitive.mesh};
+    if (merged && i >= merged->first_primitive) source.merged = &merged->meshes[i - merged->first_primitive];
     if (primitive.deforming) {
       if (!seen.emplace(primitive.source_mesh, primitive.source_primitive).second) continue;
       source.deforming = deforming_mesh(scene, primitive);
@@ -111,13 +113,18 @@ SimplifyOptions simplify_options(const PackOptions& options, const Source& sourc
   if (options.position_error > 0 && source.scale > 0)
     simplify.quantize.position_error = options.position_error / source.scale;
   if (source.deforming) simplify.quantize.rows = source.deforming->rows;
+  if (!source.merged) return simplify;
+  simplify.quantize.rows = source.merged->part_of_vertex;
+  if (options.position_error <= 0) simplify.quantize.position_error = usual_position_error(source.merged->part_size);
   return simplify;
 }
 
 }  // namespace
 
-Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress) {
-  std::vector<Source> refined = sources(scene);
+Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::optional<MergedParts>& merged,
+                                                const OpeningBudget& budget, const PackOptions& options,
+                                                Progress& progress) {
+  std::vector<Source> refined = sources(scene, merged);
   size_t total = 0;
   for (const Source& source : refined) total += source.mesh().positions.size();
   SharedCount count(progress, total);
@@ -139,13 +146,14 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   });
   for (Result<void>& outcome : outcomes) LW_CHECK(outcome);
 
-  const std::vector<size_t> rounds =
-      share_opening(forms, OpeningBudget::of(refined.size(), length(scene.bounds().size())));
+  const std::vector<size_t> rounds = share_opening(forms, budget);
   std::vector<std::optional<EncodedMesh>> encoded(refined.size());
+  std::vector<std::vector<uint32_t>> tables(refined.size());  // of those that are merged and streamed
   parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
     if (rounds[i] > 0 && !progress.cancelled()) {
       ProgressiveMesh mesh = refine_after(std::move(*simplified[i]), rounds[i]);
       encoded[i] = encode(mesh);
+      if (refined[i].merged) tables[i] = part_table(dequantize(mesh.mesh), mesh.mesh.rows);
       if (refined[i].deforming) refined[i].deforming->rows = std::move(mesh.mesh.rows);
     }
     simplified[i].reset();
@@ -156,7 +164,12 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOp
   std::vector<std::pair<float, StreamedMesh>> streamed;  // with its error, metres
   // A mesh of degenerate faces only has no coarsest level and stays whole in the opening.
   for (size_t i = 0; i < encoded.size(); i++) {
-    if (!encoded[i] || encoded[i]->blocks.empty() || encoded[i]->base.faces.empty()) continue;
+    const bool is_streamed = encoded[i] && !encoded[i]->blocks.empty() && !encoded[i]->base.faces.empty();
+    if (const MergedMesh* parts = refined[i].merged) {
+      if (!is_streamed) tables[i] = part_table(refined[i].mesh(), parts->part_of_vertex);
+      merged->file.merged[static_cast<size_t>(parts - merged->meshes.data())].table = std::move(tables[i]);
+    }
+    if (!is_streamed) continue;
     const float error = encoded[i]->layout.base_error * refined[i].scale;
     const Box3f bounds = refined[i].mesh().bounds();
     streamed.push_back(

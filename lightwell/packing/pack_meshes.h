@@ -4,6 +4,8 @@
 #include "lightwell/base/progress.h"
 #include "lightwell/mesh/stream.h"
 #include "lightwell/packing/deformation.h"
+#include "lightwell/packing/merged_parts.h"
+#include "lightwell/packing/opening_budget.h"
 #include "lightwell/packing/pack_options.h"
 #include "lightwell/scene/scene.h"
 
@@ -27,7 +29,9 @@ struct StreamedMesh {
 
 /// Simplifies and encodes the meshes that the opening does not hold whole, sorted by decreasing error of their coarsest
 /// level (metres, at the largest instance). What deforms is taken at rest. Fails when cancelled or when a position is
-/// not finite.
-Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, const PackOptions& options, Progress& progress);
+/// not finite. Gives the file of merged parts their tables.
+Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::optional<MergedParts>& merged,
+                                                const OpeningBudget& budget, const PackOptions& options,
+                                                Progress& progress);
 
 }  // namespace lightwell

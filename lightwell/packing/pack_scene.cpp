@@ -3,10 +3,13 @@
 
 #include <set>
 
+#include "lightwell/asset/parts_asset.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/pack/self_contained.h"
+#include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/pack_json.h"
 #include "lightwell/packing/pack_lamps.h"
+#include "lightwell/packing/primitive_arrays.h"
 
 namespace lightwell {
 namespace {
@@ -14,12 +17,6 @@ namespace {
 Json& primitive_json(Json& json, const Primitive& primitive) {
   return json["meshes"][static_cast<size_t>(primitive.source_mesh)]["primitives"]
              [static_cast<size_t>(primitive.source_primitive)];
-}
-
-bool has_attribute(const Mesh& mesh, const std::string& name) {
-  return name == "POSITION" || (name == "NORMAL" && !mesh.normals.empty()) ||
-         (name == "TEXCOORD_0" && !mesh.texcoords[0].empty()) || (name == "TEXCOORD_1" && !mesh.texcoords[1].empty()) ||
-         (name == "COLOR_0" && !mesh.colors.empty());
 }
 
 // What a primitive shows in the opening: the coarsest level when it is streamed, else the whole mesh.
@@ -32,18 +29,6 @@ struct Shown {
            (streamed && streamed->deforming && streamed->deforming->deformation.has(name));
   }
 };
-
-// Takes the arrays of a primitive away; keeps material, extras and extensions. Collects the names of attributes that
-// what is to take their place does not have in `lost`.
-void take_arrays(Json& primitive, const Shown& shown, std::set<std::string>& lost) {
-  for (const auto& attribute : primitive["attributes"].items())
-    if (!shown.has(attribute.key())) lost.insert(attribute.key().substr(0, 40));
-  for (const Json& target : member(primitive, "targets"))
-    for (const auto& displacement : target.items())
-      if (displacement.key() != "POSITION" && displacement.key() != "NORMAL")
-        lost.insert(displacement.key().substr(0, 40));
-  for (const char* name : {"mode", "attributes", "indices", "targets"}) primitive.erase(name);
-}
 
 Result<void> give_arrays(Document& document, const Primitive& primitive, const Shown& shown) {
   const Json arrays = DocumentBuilder(document).primitive(*shown.mesh);
@@ -59,16 +44,18 @@ Result<void> give_arrays(Document& document, const Primitive& primitive, const S
 // Replaces the arrays of every mesh by those of the opening; what deforms and is not streamed keeps the file's. The old
 // arrays go first: of scenes of very many parts the JSON is most of the memory.
 Result<void> shrink_meshes(const Scene& scene, std::vector<StreamedMesh>& streamed, Document& document,
-                           Report& report) {
+                           std::set<std::string> lost, Report& report) {
   std::vector<Shown> shown(scene.primitives.size());
   for (size_t i = 0; i < shown.size(); i++) shown[i].mesh = &scene.primitives[i].mesh;
   for (StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = {&mesh.encoded.base, &mesh};
   const auto replaced = [&](size_t i) {
     return (!scene.primitives[i].deforming || shown[i].streamed) && !shown[i].mesh->faces.empty();
   };
-  std::set<std::string> lost;
   for (size_t i = 0; i < shown.size(); i++)
-    if (replaced(i)) take_arrays(primitive_json(document.json, scene.primitives[i]), shown[i], lost);
+    if (replaced(i))
+      take_arrays(
+          primitive_json(document.json, scene.primitives[i]),
+          [&](const std::string& name) { return shown[i].has(name); }, lost);
   drop_unused(document);
   for (size_t i = 0; i < shown.size(); i++)
     if (replaced(i)) LW_CHECK(give_arrays(document, scene.primitives[i], shown[i]));
@@ -138,13 +125,53 @@ PackStream image_stream(const StreamedImage& image) {
   stream.parameters = encode_texture_parameters(image.parameters);
   stream.error = 1;
   size_t left = image.file.size();
-  for (const Bytes block : texture_blocks(image.file)) {
+  for (const Bytes block : file_blocks(image.file)) {
     left -= block.size();
     stream.blocks.push_back({{block.begin(), block.end()},
                              static_cast<uint32_t>(block.size()),
                              static_cast<float>(left) / static_cast<float>(image.file.size())});
   }
   return stream;
+}
+
+// Without an error: nothing that is seen waits for it.
+PackStream parts_stream(const PartsFile& parts) {
+  PackStream stream;
+  stream.kind = StreamKind::parts;
+  stream.codec = parts_codec_gzip;
+  PartsParameters parameters;
+  const std::vector<uint8_t> file = write_parts_file(parts, parameters.inflated);
+  parameters.bytes = static_cast<uint32_t>(file.size());
+  stream.parameters = parameters.write();
+  for (const Bytes block : file_blocks(file))
+    stream.blocks.push_back({{block.begin(), block.end()}, static_cast<uint32_t>(block.size()), 0});
+  return stream;
+}
+
+// About the bytes of the opening and the directory that meshes do not take.
+uint64_t rest_of_opening(const Document& document, const PackLight& light, const PackContent& content) {
+  constexpr uint64_t stream_head_bytes = 28, json_of_a_grid = 400, json_of_an_image = 250;
+  const auto entry = [](size_t parameters, size_t blocks) {
+    return stream_head_bytes + parameters + row_bytes * std::min<size_t>(blocks, rows_per_page);
+  };
+  Json json = document.json;
+  for (const char* array : {"meshes", "accessors", "bufferViews", "images"}) json.erase(array);
+  uint64_t bytes =
+      json_text(json).size() + json_text(to_json(light.lamps)).size() + json_of_a_grid * light.grids.size();
+  for (const PackStream& stream : content.light.streams) bytes += entry(stream.parameters.size(), stream.blocks.size());
+  for (const StreamedImage& image : content.images)
+    bytes += entry(encode_texture_parameters(image.parameters).size(), file_blocks(image.file).size());
+  for (const Json& image : member(document.json, "images")) {
+    const Json& view =
+        element(member(document.json, "bufferViews"), static_cast<size_t>(index_of(image, "bufferView")));
+    bytes += json_of_an_image + static_cast<uint64_t>(number(view, "byteLength", 0));
+  }
+  return bytes;
+}
+
+OpeningBudget opening_budget(const Scene& scene, const PackLight& light, const PackContent& content) {
+  if (content.parts) return OpeningBudget::beside(rest_of_opening(scene.document, light, content));
+  return OpeningBudget::of(scene.primitives.size(), length(scene.bounds().size()));
 }
 
 void count(const Scene& scene, PackStatistics& statistics) {
@@ -158,7 +185,8 @@ void count(const PackPlan& plan, size_t file_bytes, PackStatistics& statistics) 
   for (const StreamEntry& entry : plan.streams) switch (entry.kind) {
       case StreamKind::light:
       case StreamKind::bricks: statistics.light_bytes += entry.length; break;
-      case StreamKind::mesh: statistics.geometry_bytes += entry.length; break;
+      case StreamKind::mesh:
+      case StreamKind::parts: statistics.geometry_bytes += entry.length; break;
       case StreamKind::texture: statistics.texture_bytes += entry.length; break;
     }
   statistics.opening_bytes = file_bytes - statistics.light_bytes - statistics.geometry_bytes - statistics.texture_bytes;
@@ -171,17 +199,19 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   PackContent content;
   LW_TRY(encoded_light, encode_light(light.grids));
   content.light = std::move(encoded_light);
-  LW_TRY(meshes, encode_meshes(scene, options, progress));
+  PackLight stated = light;
+  std::set<std::string> lost;
+  content.parts = merge_parts(scene, stated.lamps, lost);
+  name_scene(scene.document.json, scene.name);
+  if (scene.document.json.contains("materials")) use_known_texcoords(scene.document.json["materials"]);
+  content.environment = add_environment(scene, scene.document);
+  content.images = shrink_images(scene, scene.document);
+  LW_TRY(meshes, encode_meshes(scene, content.parts, opening_budget(scene, stated, content), options, progress));
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
   Document document = std::move(scene.document);
-  name_scene(document.json, scene.name);
-  LW_CHECK(shrink_meshes(scene, content.meshes, document, report));
-  if (document.json.contains("materials")) use_known_texcoords(document.json["materials"]);
-  content.environment = add_environment(scene, document);
-  content.images = shrink_images(scene, document);
-  PackLight stated = light;
-  stated.lamps = lamps_of_pack(light.lamps, scene, content.meshes);
+  LW_CHECK(shrink_meshes(scene, content.meshes, document, std::move(lost), report));
+  stated.lamps = lamps_of_pack(stated.lamps, scene, content.meshes);
   add_extensions(document, scene, stated, content);
   drop_unused_images(document);
   share_buffer_views(document);
@@ -193,6 +223,7 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
     streams.push_back(mesh_stream(mesh, document.json, primitive_json(document.json, source)));
   }
   for (const StreamedImage& image : content.images) streams.push_back(image_stream(image));
+  if (content.parts) streams.push_back(parts_stream(content.parts->file));
 
   count(scene, statistics);
   std::vector<uint8_t> bin;

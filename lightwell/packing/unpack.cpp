@@ -6,6 +6,7 @@
 
 #include "lightwell/asset/light_asset.h"
 #include "lightwell/asset/mesh_asset.h"
+#include "lightwell/asset/parts_asset.h"
 #include "lightwell/asset/texture_asset.h"
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/gltf/parsed_document.h"
@@ -13,6 +14,7 @@
 #include "lightwell/packing/deformation.h"
 #include "lightwell/packing/environment_picture.h"
 #include "lightwell/packing/lamps_extension.h"
+#include "lightwell/packing/restore_parts.h"
 #include "lightwell/texture/image_file.h"
 
 namespace lightwell {
@@ -99,8 +101,8 @@ Result<void> complete_images(Document& document, const PackRefinement& refinemen
 
 // Removes the LIGHTWELL_ extensions, which do not hold for the refined document.
 void drop_extensions(Json& json) {
-  constexpr std::array names = {streams_extension, grids_extension,   lamps_extension,
-                                mesh_extension,    texture_extension, environment_extension};
+  constexpr std::array names = {streams_extension, grids_extension,       lamps_extension, mesh_extension,
+                                texture_extension, environment_extension, parts_extension};
   const auto drop = [&](Json& object) {
     if (!object.contains("extensions")) return;
     for (const char* name : names) object["extensions"].erase(name);
@@ -170,6 +172,21 @@ Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level,
                                   [&](size_t stream) { return unpack_image(pack.reader(), stream); }};
   LW_CHECK(refine_document(*document, refinement));
   return document;
+}
+
+Result<void> unpack_parts(const OpenedPack& pack, Document& document) {
+  if (!pack.parts()) return {};
+  LW_TRY(parts, open_asset_as<PartsAsset>(pack.reader(), pack.parts()->stream));
+  LW_CHECK(append_blocks(pack.reader(), pack.parts()->stream, *parts, [](uint32_t) { return true; }));
+  LW_TRY(file, read_parts_file(parts->file(), parts->parameters().inflated));
+  const size_t mesh = pack.parts()->meshes;
+  const auto final_level = [&](size_t primitive) -> Result<Mesh> {
+    for (const RefinedPrimitive& refined : pack.primitives())
+      if (refined.mesh == mesh && refined.primitive == primitive) return unpack_mesh(pack.reader(), refined.stream, {});
+    Report known;
+    return read_primitive(document, static_cast<int>(mesh), static_cast<int>(primitive), known);
+  };
+  return restore_parts(document, *pack.parts(), std::move(file), final_level, pack.identity().origin);
 }
 
 Result<std::map<uint32_t, BricksLayout>> bricks_of_grid(const Directory& directory, size_t grid) {

@@ -40,8 +40,12 @@ struct PackRefinement {
 /// extensions.
 Result<void> refine_document(Document& document, const PackRefinement& refinement);
 
-/// The glTF of a pack with meshes of the given level and full images, without LIGHTWELL_ extensions.
+/// The glTF of a pack with meshes of the given level and full images, without LIGHTWELL_ extensions. Parts
+/// that were merged are so here.
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report);
+
+/// Takes the merged mesh of such a document apart (restore_parts), where the pack has one.
+Result<void> unpack_parts(const OpenedPack& pack, Document& document);
 
 /// The radiance of what surrounds the scene of a pack; nothing where it has no picture of that.
 Result<std::optional<RadianceImage>> unpack_environment(const OpenedPack& pack, ImageLimit limit);

@@ -96,6 +96,7 @@ Result<void> verify_named_once(const OpenedPack& pack) {
     for (const BricksDescription& bricks : grid.bricks) names[bricks.stream]++;
   }
   for (const RefinedPrimitive& refined : pack.primitives()) names[refined.stream]++;
+  if (pack.parts()) names[pack.parts()->stream]++;
   const auto& streams = pack.reader().directory().streams;
   for (uint32_t i = 0; i < streams.size(); i++)
     if (streams[i].kind != StreamKind::texture && names[i] != 1)

@@ -78,6 +78,16 @@ Result<void> verify_sky(const OpenedPack& pack, const Scene& scene) {
   return fail(grids_extension, "no grid has the light of the scene's sky");
 }
 
+// What the parts are taken apart into can be read.
+Result<void> verify_parts(const OpenedPack& pack, const Scene& scene) {
+  if (!pack.parts()) return {};
+  Document document = scene.document;
+  LW_CHECK(unpack_parts(pack, document));
+  Report report;
+  LW_CHECK(scene_from_document(std::move(document), "", report, pack.identity().origin, highest_image_limit));
+  return {};
+}
+
 }  // namespace
 
 Result<void> verify_scene(const OpenedPack& pack) {
@@ -86,6 +96,7 @@ Result<void> verify_scene(const OpenedPack& pack) {
   LW_CHECK(verify_something_is_shown(scene));
   LW_CHECK(verify_bounds(pack, scene));
   LW_CHECK(verify_sky(pack, scene));
+  LW_CHECK(verify_parts(pack, scene));
   return verify_images(pack, scene);
 }
 

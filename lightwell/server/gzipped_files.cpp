@@ -2,9 +2,10 @@
 #include "lightwell/server/gzipped_files.h"
 
 #include <unistd.h>
-#include <zlib.h>
 
 #include <vector>
+
+#include "lightwell/base/gzip.h"
 
 namespace lightwell {
 namespace {
@@ -14,23 +15,11 @@ constexpr size_t most_bytes = 16u << 20;
 /// Of a file's place in the table, be its content worth compressing or not.
 constexpr size_t bytes_of_entry = 128;
 
-/// Empty when the file cannot be read or compressed.
-std::string gzip(const OpenFile& file) {
+/// Empty when the file cannot be read.
+std::vector<uint8_t> gzipped(const OpenFile& file) {
   std::vector<uint8_t> plain(file.length());
   if (::pread(file.descriptor(), plain.data(), plain.size(), 0) != static_cast<ssize_t>(plain.size())) return {};
-  z_stream stream{};
-  constexpr int gzip_window = 15 + 16, memory_level = 8;
-  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, memory_level, Z_DEFAULT_STRATEGY) != Z_OK)
-    return {};
-  std::string packed(deflateBound(&stream, plain.size()), '\0');
-  stream.next_in = plain.data();
-  stream.avail_in = static_cast<uInt>(plain.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  const bool done = deflate(&stream, Z_FINISH) == Z_STREAM_END;
-  packed.resize(done ? stream.total_out : 0);
-  deflateEnd(&stream);
-  return packed;
+  return gzip(plain);
 }
 
 }  // namespace
@@ -39,10 +28,10 @@ std::shared_ptr<const std::string> GzippedFiles::content(const OpenFile& file) {
   if (file.length() > longest_file) return nullptr;
   const auto known = contents_.find(file.etag());
   if (known != contents_.end()) return known->second;
-  std::string packed = gzip(file);
+  const std::vector<uint8_t> packed = gzipped(file);
   const bool worth_it = !packed.empty() && packed.size() < file.length();
   std::shared_ptr<const std::string> content;
-  if (worth_it) content = std::make_shared<const std::string>(std::move(packed));
+  if (worth_it) content = std::make_shared<const std::string>(packed.begin(), packed.end());
   const size_t bytes = bytes_of_entry + (worth_it ? content->size() : 0);
   // What was kept for files that have changed since goes, too.
   if (bytes_ + bytes > most_bytes) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include "lightwell/texture/stream.h"
 
 namespace lightwell {
@@ -19,13 +17,6 @@ Result<TextureParameters> decode_texture_parameters(Bytes bytes) {
     return fail("texture parameters", "an empty image");
   parameters.format = static_cast<ImageFormat>(format);
   return parameters;
-}
-
-Result<void> TextureDecoder::append(Bytes block) {
-  const size_t due = std::min(texture_block_bytes, parameters_.bytes - file_.size());
-  if (block.size() != due) return fail("texture block", "wrong length");
-  file_.insert(file_.end(), block.begin(), block.end());
-  return {};
 }
 
 }  // namespace lightwell

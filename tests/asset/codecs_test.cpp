@@ -8,6 +8,7 @@
 
 #include "lightwell/asset/light_asset.h"
 #include "lightwell/asset/mesh_asset.h"
+#include "lightwell/asset/parts_asset.h"
 #include "lightwell/asset/texture_asset.h"
 #include "lightwell/light/lattice_stream.h"
 #include "lightwell/light/push_pull.h"
@@ -190,10 +191,56 @@ TEST(Codecs, OpenWhatTheCodecByItselfDecodes) {
       case StreamKind::light: compare_light(pack, stream); break;
       case StreamKind::mesh: compare_mesh(pack, stream); break;
       case StreamKind::texture: compare_texture(pack, stream); break;
-      case StreamKind::bricks: FAIL() << "the sample's grid has none apart";
+      case StreamKind::bricks:
+      case StreamKind::parts: FAIL() << "the sample has none";
     }
   }
   EXPECT_THAT(kinds, testing::Each(testing::Gt(0))) << "a sample of every kind";
+}
+
+/// A directory of one stream of parts, which promises so much.
+Directory directory_of_parts(uint32_t bytes, uint32_t inflated) {
+  Directory directory;
+  StreamEntry entry;
+  entry.kind = StreamKind::parts;
+  entry.codec = parts_codec_gzip;
+  entry.length = 100'000;
+  entry.parameters = PartsParameters{bytes, inflated}.write();
+  directory.streams.push_back(std::move(entry));
+  return directory;
+}
+
+TEST(Codecs, PartsAreHandedOnOnceTheirFileIsComplete) {
+  std::vector<uint8_t> file(file_block_bytes + 100);
+  for (size_t i = 0; i < file.size(); i++) file[i] = static_cast<uint8_t>(i * 7);
+  AssetContext context;
+  auto parts =
+      open_asset_as<PartsAsset>(directory_of_parts(static_cast<uint32_t>(file.size()), 99), 0, context).value();
+  EXPECT_FALSE(parts->append(Bytes(file).first(10))) << "a block that is too short";
+  ASSERT_TRUE(parts->append(Bytes(file).first(file_block_bytes)));
+  EXPECT_FALSE(parts->take(1 << 20));
+  EXPECT_FALSE(parts->append(Bytes(file).first(file_block_bytes))) << "more than was promised";
+  ASSERT_TRUE(parts->append(Bytes(file).last(100)));
+  EXPECT_TRUE(parts->complete());
+  const auto update = parts->take(1 << 20);
+  ASSERT_TRUE(update);
+  EXPECT_EQ(std::get<PartsUpdate>(*update).inflated, 99u);
+  EXPECT_TRUE(std::ranges::equal(std::get<PartsUpdate>(*update).file, file));
+  EXPECT_FALSE(parts->take(1 << 20));
+}
+
+TEST(Codecs, PartsThatPromiseTooMuchAreRefused) {
+  const auto opens = [](const Directory& directory) {
+    AssetContext context;
+    return open_asset(directory, 0, context).has_value();
+  };
+  EXPECT_TRUE(opens(directory_of_parts(1000, 1'200'000)));
+  EXPECT_FALSE(opens(directory_of_parts(1000, 1'300'000))) << "more than 2^20 and 200 times its bytes";
+  EXPECT_FALSE(opens(directory_of_parts(0, 0)));
+  EXPECT_FALSE(opens(directory_of_parts(100'001, 0))) << "more than the stream has";
+  Directory directory = directory_of_parts(1000, 1000);
+  directory.streams[0].parameters.push_back(0);
+  EXPECT_FALSE(opens(directory));
 }
 
 TEST(Codecs, UnknownOneIsRefusedByName) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/cases/generate.h"
 
+#include "lightwell/base/file_blocks.h"
 #include "lightwell/light/lattice_stream.h"
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/mesh/progressive.h"
@@ -58,7 +59,7 @@ Case mesh_case(const Mesh& mesh) {
 Case texture_case(Random& random, uint32_t length) {
   const std::vector<uint8_t> file = random_bytes(random, length);
   Case one{Room::texture, {encode_texture_parameters({length, ImageFormat::webp, 640, 480})}};
-  for (const Bytes block : texture_blocks(file)) one.parts.emplace_back(block.begin(), block.end());
+  for (const Bytes block : file_blocks(file)) one.parts.emplace_back(block.begin(), block.end());
   return one;
 }
 

@@ -36,6 +36,7 @@ struct Print {
   void operator()(const TextureUpdate& u) {
     std::printf("6 %u %u %u %u %u\n", u.asset, u.format, u.width, u.height, crc32c(u.file));
   }
+  void operator()(const PartsUpdate& u) { std::printf("9 %u %u %u\n", u.asset, u.inflated, crc32c(u.file)); }
   void operator()(const CompleteUpdate&) { std::printf("7\n"); }
   void operator()(const FailureUpdate& u) { std::printf("8 %d %s\n", static_cast<int>(u.reason), u.message.c_str()); }
 };

@@ -77,6 +77,10 @@ struct Apply {
     scene.textures[update.asset] = copy(update.file);
     return {};
   }
+  std::string operator()(const PartsUpdate& update) {
+    scene.textures[update.asset] = copy(update.file);
+    return {};
+  }
   std::string operator()(const CompleteUpdate&) {
     scene.complete = true;
     return {};
@@ -228,7 +232,8 @@ ReceivedScene decode_directly(Bytes pack) {
       case StreamKind::mesh: scene.meshes[asset_of_stream(stream)] = decode_mesh(reader, stream); break;
       case StreamKind::light: scene.atlases[asset_of_stream(stream)] = decode_light(reader, stream); break;
       case StreamKind::texture: scene.textures[asset_of_stream(stream)] = decode_texture(reader, stream); break;
-      case StreamKind::bricks: break;  // of grids of slices there are none
+      case StreamKind::bricks:
+      case StreamKind::parts: break;  // there are none
     }
   }
   scene.complete = true;

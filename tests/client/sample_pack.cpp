@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "lightwell/base/file_blocks.h"
 #include "lightwell/base/progress.h"
 #include "lightwell/light/stream.h"
 #include "lightwell/mesh/base_places.h"
@@ -212,7 +213,7 @@ PackStream texture_stream(const std::vector<uint8_t>& image, const Image& size) 
   const TextureParameters parameters{static_cast<uint32_t>(image.size()), ImageFormat::png,
                                      static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height)};
   PackStream stream{StreamKind::texture, texture_codec_file, wall_error, encode_texture_parameters(parameters), {}};
-  const std::vector<Bytes> blocks = texture_blocks(image);
+  const std::vector<Bytes> blocks = file_blocks(image);
   for (size_t i = 0; i < blocks.size(); i++)
     stream.blocks.push_back({{blocks[i].begin(), blocks[i].end()},
                              static_cast<uint32_t>(blocks[i].size()),

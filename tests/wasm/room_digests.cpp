@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "lightwell/base/crc32c.h"
+#include "lightwell/base/file_blocks.h"
 #include "lightwell/base/half.h"
 #include "lightwell/base/random.h"
 #include "lightwell/base/range_coder.h"
@@ -187,7 +188,7 @@ void mesh(const Case& one, Digest& digest) {
 void texture(const Case& one, Digest& digest) {
   const auto parameters = decode_texture_parameters(one.parts[0]);
   if (!parameters) return digest.add(parameters.error());
-  TextureDecoder decoder(*parameters);
+  FileBlocks decoder(parameters->bytes);
   for (size_t i = 1; i < one.parts.size(); i++) {
     const auto appended = decoder.append(one.parts[i]);
     if (!appended) digest.add(appended.error());
@@ -251,6 +252,9 @@ void add_update(const Update& update, Digest& digest) {
   } else if (const auto* image = std::get_if<TextureUpdate>(&update)) {
     digest.add(image->format);
     digest.add(image->file);
+  } else if (const auto* parts = std::get_if<PartsUpdate>(&update)) {
+    digest.add(parts->inflated);
+    digest.add(parts->file);
   }
 }
 

@@ -91,6 +91,14 @@ export interface TextureEvent {
   file: ArrayBuffer;
 }
 
+/** What the file said of the parts that meshes were merged from: gzipped JSON, complete. */
+export interface PartsEvent {
+  type: 'parts';
+  /** Bytes of the JSON. */
+  inflated: number;
+  file: ArrayBuffer;
+}
+
 export interface Share {
   done: number;
   total: number;
@@ -136,7 +144,7 @@ export interface FailureEvent {
   message: string;
 }
 
-export type UpdateEvent = MeshEvent | RangeEvent | DrawEvent | LightEvent | TextureEvent;
+export type UpdateEvent = MeshEvent | RangeEvent | DrawEvent | LightEvent | TextureEvent | PartsEvent;
 export type PackEvent = OpeningEvent | UpdateEvent | ProgressEvent | ConnectionEvent | LinksEvent | FailureEvent;
 
 /** The bytes of an update that flow control counts. */
@@ -149,6 +157,7 @@ export function payload(event: PackEvent): ArrayBuffer | null {
     case 'light':
       return event.atlas.buffer;
     case 'texture':
+    case 'parts':
       return event.file;
     default:
       return null;

@@ -158,6 +158,8 @@ export class WasmClient {
         };
       case 6:
         return { type: 'texture', asset, width: r[2]!, height: r[3]!, mimeType: IMAGE_TYPES[r[1]!]!, file: this.#copy(r[4]!, r[5]!) };
+      case 9:
+        return { type: 'parts', inflated: r[1]!, file: this.#copy(r[2]!, r[3]!) };
       case 7:
         return { type: 'connection', state: 'complete' };
       case 8:

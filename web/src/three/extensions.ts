@@ -22,6 +22,8 @@ export const assetOf = (extension: { stream: number }): number => extension.stre
 /** On a primitive. */
 export interface ProgressiveMeshExtension {
   stream: number;
+  /** Of the final level. */
+  faces: number;
   bounds: { min: Triple; max: Triple };
   /** Of the coarsest level: its distance from the final one, in metres of the mesh's space. */
   error: number;
@@ -89,10 +91,20 @@ export interface EnvironmentDefinition {
   stops: number;
 }
 
+/** The pack's last mesh was merged from parts, of which a stream tells. */
+export interface PartsDescription {
+  stream: number;
+  /** The number of the node that shows that mesh. */
+  nodes: number;
+  /** The number of that mesh. */
+  meshes: number;
+}
+
 /** The extensions that stand at the root of a pack's JSON. */
 export interface PackExtensions {
   LIGHTWELL_streams?: StreamsExtension;
   LIGHTWELL_light_grids?: { grids: LightGridDefinition[] };
   LIGHTWELL_lamps?: { lamps: LampDefinition[] };
   LIGHTWELL_environment?: EnvironmentDefinition;
+  LIGHTWELL_parts?: PartsDescription;
 }

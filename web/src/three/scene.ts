@@ -39,6 +39,7 @@ import { materialsOf, meshesIn } from './meshes.js';
 import type { Opening } from './opening.js';
 import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
+import type { Parts } from './parts.js';
 import { TextureRefinement } from './texture_refinement.js';
 import type { UploadBudget } from './upload_budget.js';
 import { viewWeights } from './view_weights.js';
@@ -90,6 +91,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
    * and gloss mirror, as far as the baked light lets it, and for `scene.background`. It gets sharper in its place.
    */
   readonly environment: Environment | undefined;
+  /** What tells apart what the file has as parts and the pack shows in one mesh: scenes of very many parts. */
+  parts?: Parts;
   /** The final bounds of the pack's meshes, in the pack's space. */
   readonly bounds: Box3;
   /** What the pack is about: the part that its first grid covers. A ground may reach far beyond it. */
@@ -170,6 +173,8 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       surroundings && (await (await import('./environment.js')).Environment.create(DataTexture, surroundings, opening.gltf.parser));
     if (environment) images.set(environment.asset, environment);
     const scene = new LightwellScene(opening, images, environment, grids, groups, connection, renderer, options);
+    const { LIGHTWELL_parts: parts } = opening.extensions;
+    if (parts) scene.parts = new (await import('./parts.js')).Parts(parts, opening, Box3);
     const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
     if (lamps.length > 0) {
       const { DirectLight } = await import('./direct/direct_light.js');
@@ -341,6 +346,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
         return this.#refineBy(event, this.#meshes.get(event.asset));
       case 'light':
         return this.#refineLight(event);
+      case 'parts':
+        void this.parts?.receive(event);
+        return this.#refineBy(event, undefined);
       case 'texture':
         return this.#refineBy(event, this.#images.get(event.asset));
     }

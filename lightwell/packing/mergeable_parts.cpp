@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/packing/mergeable_parts.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "lightwell/gltf/references.h"
+
+namespace lightwell {
+namespace {
+
+/// Scenes of no more parts keep each a mesh of its own: the JSON of so many fits well into the opening.
+constexpr size_t few_parts = 32;
+/// Fewer parts for a primitive, in the mean, spare too little for what is lost: each a mesh that a program can address.
+constexpr size_t parts_of_a_primitive = 2;
+/// A part of more vertices is refined by itself: its stream costs little beside them.
+constexpr size_t many_vertices = size_t(1) << 16;
+/// Vertices that take about as many bytes as a stream, and a mesh in the JSON.
+constexpr size_t vertices_of_a_stream = 200;
+
+/// The nodes that something moves, marks or tells apart.
+std::vector<bool> own_nodes(const Json& json, std::span<const ClientLamp> lamps) {
+  const Json& nodes = member(json, "nodes");
+  std::vector<bool> own(nodes.size());
+  for (size_t i = 0; i < nodes.size(); i++)
+    own[i] = !member(nodes[i], "extensions").empty() || nodes[i].contains("skin");
+  const auto mark = [&](int64_t node) {
+    if (node >= 0 && node < static_cast<int64_t>(own.size())) own[static_cast<size_t>(node)] = true;
+  };
+  for_each_reference(json, "nodes", [&](const Json& value, std::string_view, const ReferencePlace& place) {
+    if (place.pattern() != "scenes[].nodes[]" && place.pattern() != "nodes[].children[]") mark(whole_number(value));
+  });
+  for (const ClientLamp& lamp : lamps) mark(lamp.luminaire.node);
+  return own;
+}
+
+/// Calls `visit` with every node of a scene, and whether one of `own` is on the way to it or is it; parents first.
+template <typename Visit>
+void walk(const Json& json, size_t scene, const std::vector<bool>& own, const Visit& visit) {
+  std::vector<std::pair<size_t, bool>> open;
+  const auto push = [&](const Json& nodes, bool below_own) {
+    for (const Json& node : nodes) open.emplace_back(static_cast<size_t>(whole_number(node)), below_own);
+  };
+  push(member(element(member(json, "scenes"), scene), "nodes"), false);
+  while (!open.empty()) {
+    auto [node, below_own] = open.back();
+    open.pop_back();
+    below_own = below_own || own[node];
+    visit(node, below_own);
+    push(member(json["nodes"][node], "children"), below_own);
+  }
+}
+
+/// The nodes of the default scene that stay where they are, parents first.
+std::vector<size_t> static_nodes(const Json& json, std::span<const ClientLamp> lamps) {
+  const std::vector<bool> own = own_nodes(json, lamps);
+  const auto shown = static_cast<size_t>(std::max(0, index_of(json, "scene")));
+  std::vector<bool> elsewhere(own.size());
+  for (size_t scene = 0; scene < member(json, "scenes").size(); scene++)
+    if (scene != shown) walk(json, scene, own, [&](size_t node, bool) { elsewhere[node] = true; });
+  std::vector<size_t> nodes;
+  walk(json, shown, own, [&](size_t node, bool below_own) {
+    if (!below_own && !elsewhere[node]) nodes.push_back(node);
+  });
+  return nodes;
+}
+
+/// What of the scene shows a mesh.
+struct Shown {
+  size_t nodes = 0;                        // in the document
+  size_t primitives = 0;                   // that can be merged
+  size_t instances = 0;                    // of those, by static nodes
+  size_t vertices = 0, most_vertices = 0;  // of all of them, of the largest
+};
+
+bool is_plain(const Json& primitive) {
+  return member(primitive, "extensions").empty() && member(primitive, "targets").empty();
+}
+
+std::vector<Shown> shown_meshes(const Scene& scene, const std::vector<bool>& is_static) {
+  const Json& json = scene.document.json;
+  std::vector<Shown> shown(member(json, "meshes").size());
+  for_each_reference(json, "meshes", [&](const Json& value, std::string_view, const ReferencePlace&) {
+    shown[static_cast<size_t>(whole_number(value))].nodes++;
+  });
+  for (const Primitive& primitive : scene.primitives) {
+    const auto mesh = static_cast<size_t>(primitive.source_mesh);
+    const bool plain = is_plain(json["meshes"][mesh]["primitives"][static_cast<size_t>(primitive.source_primitive)]);
+    if (primitive.deforming || primitive.mesh.faces.empty() || !plain) continue;
+    shown[mesh].primitives++;
+    const size_t vertices = primitive.mesh.positions.size();
+    shown[mesh].vertices += vertices;
+    shown[mesh].most_vertices = std::max(shown[mesh].most_vertices, vertices);
+  }
+  for (const Instance& instance : scene.instances) {
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
+    if (is_static[static_cast<size_t>(instance.node)]) shown[static_cast<size_t>(primitive.source_mesh)].instances++;
+  }
+  return shown;
+}
+
+bool can_be_merged(const Shown& shown, const Json& mesh) {
+  return is_plain(mesh) && shown.primitives > 0 && shown.primitives == member(mesh, "primitives").size() &&
+         shown.instances == shown.primitives * shown.nodes && shown.most_vertices <= many_vertices &&
+         (shown.nodes - 1) * shown.vertices <= vertices_of_a_stream;
+}
+
+/// A mesh none of whose primitives has another of its kind gains nothing; nor do parts of nearly as many kinds.
+void keep_those_alone(const Scene& scene, std::vector<bool>& meshes) {
+  std::map<PartKind, size_t> parts;
+  size_t all = 0;
+  const auto merged = [&](const Primitive& primitive) { return meshes[static_cast<size_t>(primitive.source_mesh)]; };
+  for (const Instance& instance : scene.instances) {
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
+    if (!merged(primitive)) continue;
+    parts[kind_of(primitive)]++;
+    all++;
+  }
+  const bool many = all > few_parts && all >= parts_of_a_primitive * parts.size();
+  std::vector<bool> gain(meshes.size());
+  for (const Primitive& primitive : scene.primitives)
+    if (many && merged(primitive) && parts[kind_of(primitive)] > 1)
+      gain[static_cast<size_t>(primitive.source_mesh)] = true;
+  meshes = gain;
+}
+
+}  // namespace
+
+PartKind kind_of(const Primitive& primitive) {
+  const Mesh& mesh = primitive.mesh;
+  const unsigned attributes = (mesh.normals.empty() ? 0u : 1u) | (mesh.texcoords[0].empty() ? 0u : 2u) |
+                              (mesh.texcoords[1].empty() ? 0u : 4u) | (mesh.colors.empty() ? 0u : 8u);
+  return {primitive.material, attributes};
+}
+
+MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> lamps) {
+  const Json& json = scene.document.json;
+  const std::vector<size_t> fixed = static_nodes(json, lamps);
+  std::vector<bool> is_static(member(json, "nodes").size());
+  for (const size_t node : fixed) is_static[node] = true;
+
+  MergeableParts parts;
+  const std::vector<Shown> shown = shown_meshes(scene, is_static);
+  for (size_t mesh = 0; mesh < shown.size(); mesh++)
+    parts.meshes.push_back(can_be_merged(shown[mesh], json["meshes"][mesh]));
+  keep_those_alone(scene, parts.meshes);
+
+  parts.nodes.resize(is_static.size());
+  for (size_t i = fixed.size(); i-- > 0;) {  // children before their parents
+    const Json& node = json["nodes"][fixed[i]];
+    const int mesh = index_of(node, "mesh");
+    const Json& children = member(node, "children");
+    const bool holds = mesh >= 0 ? parts.meshes[static_cast<size_t>(mesh)] : !children.empty();
+    parts.nodes[fixed[i]] = holds && !node.contains("camera") && std::ranges::all_of(children, [&](const Json& child) {
+                              return parts.nodes[static_cast<size_t>(whole_number(child))];
+                            });
+  }
+  return parts;
+}
+
+}  // namespace lightwell

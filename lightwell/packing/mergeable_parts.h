@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lightwell/scene/client_lamp.h"
+#include "lightwell/scene/scene.h"
+
+namespace lightwell {
+
+/// What of a scene goes into one mesh a material in the pack.
+struct MergeableParts {
+  std::vector<bool> meshes;  ///< of the document: all their primitives do
+  std::vector<bool> nodes;   ///< of the document: hold nothing but such meshes, so that the opening need not have them
+};
+
+/// The parts that stay as the file has them together, whatever is done with a pack: static, without extensions, shown
+/// by the default scene alone, of attributes that packs have, no lamp's own surface. Of scenes of few parts none, since
+/// the opening can name them all; nor where nearly each is of a kind of its own; nor what has vertices enough to be
+/// worth a stream of its own, or is shown so often that its copies would take more bytes than that.
+MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> lamps);
+
+/// What primitives need in common to be merged: material and attributes.
+using PartKind = std::pair<int, unsigned>;
+PartKind kind_of(const Primitive& primitive);
+
+}  // namespace lightwell
