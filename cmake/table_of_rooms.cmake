@@ -6,8 +6,9 @@ lightwell_room(base LIBRARIES Threads::Threads tl::expected
                BAKER_ONLY parallel_threads.cpp gzip.cpp file.cpp fingerprint.cpp BAKER_LIBRARIES ZLIB::ZLIB)
 lightwell_room(mesh DEPENDS base BAKER_ONLY connected_faces.cpp part_table.cpp winding.cpp quantize.cpp collapse.cpp collapse_state.cpp progressive.cpp stream_encode.cpp)
 lightwell_room(texture DEPENDS base
-               BAKER_ONLY bmp_tga_file.cpp image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp
-               BAKER_LIBRARIES PNG::PNG JPEG::JPEG PkgConfig::WEBP)
+               BAKER_ONLY bmp_tga_file.cpp image_file.cpp orientation.cpp png_file.cpp jpeg_file.cpp webp_file.cpp ktx2_file.cpp etc1s_decode.cpp
+               uastc_decode.cpp radiance_hdr.cpp mip.cpp stream_encode.cpp
+               BAKER_LIBRARIES PNG::PNG JPEG::JPEG PkgConfig::WEBP PkgConfig::ZSTD)
 lightwell_room(light DEPENDS base BAKER_ONLY stream_encode.cpp lattice_encode.cpp record_encode.cpp)
 lightwell_room(pack DEPENDS base BAKER_ONLY content_hash.cpp reader.cpp writer.cpp)
 lightwell_room(asset DEPENDS pack light mesh texture base)

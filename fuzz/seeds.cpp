@@ -143,6 +143,8 @@ void plant_images(Seeds& seeds) {
     if (channels < 4) seeds.plant("texture", write_jpeg(image, 80));
     if (channels == 4) seeds.plant("texture", webp(image));
   }
+  for (const auto& entry : fs::directory_iterator(fs::path(LIGHTWELL_TEST_DATA) / "ktx2"))
+    if (entry.path().extension() == ".ktx2") seeds.plant("texture", read_file(entry.path().string()).value());
   seeds.plant("texture", as_bytes(radiance_text));
   seeds.plant("texture", small_bmp);
   seeds.plant("texture", small_tga);

@@ -15,7 +15,7 @@ share=$work/root/usr/share
 program=$work/root/usr/bin/lightwell
 echo "${package##*/}: $(stat -c %s "$package") bytes, needs $(dpkg-deb -f "$package" Depends)"
 
-for needed in libembree3 libdraco libmeshoptimizer libpng16 libjpeg libwebp libc6 libstdc++6; do
+for needed in libembree3 libdraco libmeshoptimizer libpng16 libjpeg libwebp libzstd libc6 libstdc++6; do
   dpkg-deb -f "$package" Depends | grep -q "$needed" || complain "it does not depend on $needed"
 done
 apt-get install --simulate "$package" >"$work/log" 2>&1 || complain "apt would not install it: $(tail -n 1 "$work/log")"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/texture/image_file.h"
 
+#include "lightwell/texture/ktx2_file.h"
 #include "lightwell/texture/mip.h"
 
 namespace lightwell {
@@ -48,7 +49,7 @@ Error naming_image_option(Error error) {
 
 Result<Image> read_image_file(Bytes file, ImageLimit limit) {
   const auto format = image_format(file);
-  if (!format) return read_bmp_or_tga(file, limit);
+  if (!format) return is_ktx2(file) ? read_ktx2(file, limit) : read_bmp_or_tga(file, limit);
   switch (*format) {
     case ImageFormat::png: return read_png(file, limit);
     case ImageFormat::jpeg: return read_jpeg(file, limit);

@@ -16,12 +16,12 @@ Result<void> check_image_size(uint64_t width, uint64_t height, ImageLimit limit 
 /// The error with the option that raises the limit, where it is one of a picture beyond that.
 Error naming_image_option(Error error);
 
-/// Decodes a PNG, JPEG, WebP, BMP or TGA file, recognised by content. Sixteen bits become eight, palettes and bit
+/// Decodes a PNG, JPEG, WebP, KTX2, BMP or TGA file, recognised by content. Sixteen bits become eight, palettes and bit
 /// depths below eight are expanded, CMYK becomes RGB; channels stay as they are otherwise. Colour profiles and gamma
 /// chunks are ignored, as glTF asks (section 3.8.3). Errors name the format and the reason; any bytes are safe.
 Result<Image> read_image_file(Bytes file, ImageLimit limit = {});
 
-/// The readers of single formats, among which read_image_file chooses.
+/// The readers of single formats, among which read_image_file chooses; that of KTX2 is in ktx2_file.h.
 Result<Image> read_png(Bytes file, ImageLimit limit = {});
 Result<Image> read_jpeg(Bytes file, ImageLimit limit = {});
 Result<Image> read_webp(Bytes file, ImageLimit limit = {});
