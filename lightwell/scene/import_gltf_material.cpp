@@ -159,36 +159,6 @@ Result<Image> decode_image(const Document& document, int index, ImageLimit limit
   return image;
 }
 
-/// For each image of a document whether a texture is read from it. Of the others are those for viewers that lack an
-/// extension.
-std::vector<bool> read_by_textures(const Json& document) {
-  std::vector<bool> read(member(document, "images").size(), false);
-  for (const Json& texture : member(document, "textures"))
-    if (const auto image = static_cast<size_t>(image_of(texture)); image < read.size()) read[image] = true;
-  return read;
-}
-
-/// For each image of a document whether it is in KTX2: no library of Debian's decodes that. `report` gets a line on
-/// what stands for them.
-std::vector<bool> images_in_ktx2(const Json& document, Report& report) {
-  std::vector<bool> in_ktx2(member(document, "images").size(), false);
-  size_t with_other = 0, without = 0;
-  for (const Json& texture : member(document, "textures")) {
-    const int source = index_of(extension(texture, "KHR_texture_basisu"), "source");
-    if (static_cast<size_t>(source) >= in_ktx2.size()) continue;
-    in_ktx2[static_cast<size_t>(source)] = true;
-    ++(image_of(texture) == source ? without : with_other);
-  }
-  const auto warn = [&](size_t count, const std::string& stands) {
-    if (count > 0)
-      report.warn(std::to_string(count) + (count > 1 ? " textures are" : " texture is") +
-                  " in KTX2 (KHR_texture_basisu), which is not decoded: " + stands);
-  };
-  warn(with_other, "the image that the file has for such readers is baked and shown");
-  warn(without, "white is baked and shown; as WebP, PNG or JPEG it would be read");
-  return in_ktx2;
-}
-
 /// One warning for each extension that is not followed, by the first material that has it.
 void warn_of_ignored_extensions(const Json& materials, Report& report) {
   for (const char* ignored : ignored_extensions) {
@@ -214,6 +184,13 @@ int image_of(const Json& texture) {
   return -1;
 }
 
+std::vector<bool> read_by_textures(const Json& document) {
+  std::vector<bool> read(member(document, "images").size(), false);
+  for (const Json& texture : member(document, "textures"))
+    if (const auto image = static_cast<size_t>(image_of(texture)); image < read.size()) read[image] = true;
+  return read;
+}
+
 std::vector<Material> read_materials(const Json& document, Report& report) {
   std::vector<Material> materials;
   const Json& array = member(document, "materials");
@@ -225,11 +202,11 @@ std::vector<Material> read_materials(const Json& document, Report& report) {
 
 std::vector<Image> read_images(const Document& document, ImageLimit limit, Report& report) {
   const Image white{1, 1, 3, {255, 255, 255}};
-  const std::vector<bool> read = read_by_textures(document.json), in_ktx2 = images_in_ktx2(document.json, report);
+  const std::vector<bool> read = read_by_textures(document.json);
   std::vector<Image> images(read.size(), white);
   uint64_t pixels = 0;
   for (size_t i = 0; i < images.size(); i++) {
-    if (!read[i] || in_ktx2[i]) continue;
+    if (!read[i]) continue;
     auto image = decode_image(document, static_cast<int>(i), limit);
     if (image) pixels += uint64_t(static_cast<uint32_t>(image->width)) * static_cast<uint32_t>(image->height);
     if (image && pixels > max_pixels)

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "lightwell/scene/import_gltf_material.h"
 #include "lightwell/texture/image_file.h"
 #include "lightwell/texture/orientation.h"
 
@@ -12,7 +13,7 @@ namespace {
 /// The file in its plain form; none when it is plain already, or cannot be read.
 std::optional<std::vector<uint8_t>> plain_form(std::vector<uint8_t> file, ImageLimit limit) {
   if (!image_format(file)) {
-    const auto image = read_bmp_or_tga(file, limit);
+    const auto image = read_image_file(file, limit);
     return image ? std::optional(write_png(*image)) : std::nullopt;
   }
   return make_upright(file) ? std::optional(std::move(file)) : std::nullopt;
@@ -22,7 +23,9 @@ std::optional<std::vector<uint8_t>> plain_form(std::vector<uint8_t> file, ImageL
 
 void make_images_plain(Document& document, ImageLimit limit) {
   DocumentBuilder builder(document);
-  for (size_t i = 0; i < member(document.json, "images").size(); i++) {
+  const std::vector<bool> read = read_by_textures(document.json);
+  for (size_t i = 0; i < read.size(); i++) {
+    if (!read[i]) continue;
     auto file = read_image(document, static_cast<int>(i));
     const auto plain = file ? plain_form(std::move(*file), limit) : std::nullopt;
     if (!plain) continue;

@@ -6,8 +6,9 @@
 
 namespace lightwell {
 
-/// Makes the images of a document such as every viewer shows them: a BMP or TGA, which glTF does not know, becomes a
-/// PNG, and the orientation in the Exif data of others (texture/orientation.h), which glTF ignores, goes.
+/// Makes the images that a document's textures show such as every viewer shows them: a BMP or TGA, which glTF does not
+/// know, and a KTX2, which few viewers decode, become PNGs, and the orientation in the Exif data of others
+/// (texture/orientation.h), which glTF ignores, goes.
 void make_images_plain(Document& document, ImageLimit limit);
 
 }  // namespace lightwell
