@@ -16,8 +16,8 @@ constexpr size_t few_parts = 32;
 constexpr size_t parts_of_a_primitive = 2;
 /// A part of more vertices is refined by itself: its stream costs little beside them.
 constexpr size_t many_vertices = size_t(1) << 16;
-/// Vertices that take about as many bytes as a stream, and a mesh in the JSON.
-constexpr size_t vertices_of_a_stream = 200;
+/// Vertices that take about as many bytes as a stream, and a mesh in the JSON; and as a node there.
+constexpr size_t vertices_of_a_stream = 200, vertices_of_a_node = 50;
 
 /// The nodes that something moves, marks or tells apart.
 std::vector<bool> own_nodes(const Json& json, std::span<const ClientLamp> lamps) {
@@ -103,7 +103,7 @@ std::vector<Shown> shown_meshes(const Scene& scene, const std::vector<bool>& is_
 bool can_be_merged(const Shown& shown, const Json& mesh) {
   return is_plain(mesh) && shown.primitives > 0 && shown.primitives == member(mesh, "primitives").size() &&
          shown.instances == shown.primitives * shown.nodes && shown.most_vertices <= many_vertices &&
-         (shown.nodes - 1) * shown.vertices <= vertices_of_a_stream;
+         (shown.vertices <= vertices_of_a_node || (shown.nodes - 1) * shown.vertices <= vertices_of_a_stream);
 }
 
 /// A mesh none of whose primitives has another of its kind gains nothing; nor do parts of nearly as many kinds.

@@ -161,6 +161,31 @@ TEST(Parts, OfASceneOfManyAreOneMeshWithAPrimitiveAMaterial) {
   EXPECT_TRUE(verify_pack(opened).errors.empty());
 }
 
+// A mesh that many nodes show is merged once for each where that takes less than their JSON; else they keep it.
+TEST(Parts, OfOneMeshAreMergedWhereACopyIsSmall) {
+  for (const bool small : {true, false}) {
+    Building building(0);
+    int mesh = building.mesh(0, "chair");
+    if (!small) {
+      Json primitive = building.builder().primitive(seamed_sphere(24, 32));
+      primitive["material"] = 0;
+      mesh = building.builder().add("meshes", {{"name", "bush"}, {"primitives", Json::array({primitive})}});
+    }
+    for (int i = 0; i < 200; i++)
+      building.child(i % 3,
+                     {{"name", "copy " + std::to_string(i)}, {"mesh", mesh}, {"translation", {2 * (i / 3), 0, 0}}});
+    const Packed packed = pack(building.finish());
+    const OpenedPack opened = open(packed.file);
+    EXPECT_EQ(opened.parts().has_value(), small);
+    EXPECT_EQ(opened.json()["nodes"].size(), small ? 1u : 203u);
+    EXPECT_TRUE(verify_pack(opened).errors.empty());
+    if (!small) continue;
+    auto expected = faces_by_node(packed.scene), found = faces_by_node(scene_of(apart(opened)));
+    for (auto* faces : {&expected, &found}) round_to(*faces, 1e-2f);
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(Parts, ComeBackWithTheirNodesNamesAndExtras) {
   const Document source = Building(200).finish();
   const Packed packed = pack(source);
