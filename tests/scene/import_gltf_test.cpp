@@ -442,10 +442,10 @@ TEST(ImportGltf, ImagesAreDecodedAndOthersAreWhite) {
   EXPECT_EQ(scene.images[0].pixels, (std::vector<uint8_t>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(scene.images[0].height, 2);
   for (const size_t i : {1, 2, 3}) EXPECT_EQ(scene.images[i].pixels, (std::vector<uint8_t>{255, 255, 255}));
-  EXPECT_EQ(report.warnings, (std::vector<std::string>{
-                                 "images[1]: KTX2: damaged header; a white pixel stands for it",
-                                 "images[2]: its URI does not lead to a file below the document's folder; a white "
-                                 "pixel stands for it"}));
+  EXPECT_EQ(report.warnings,
+            (std::vector<std::string>{"images[1]: KTX2: damaged header; a white pixel stands for it",
+                                      "images[2]: its URI does not lead to a file below the document's folder; a white "
+                                      "pixel stands for it"}));
 }
 
 // Every viewer shows a PNG; packs hold no KTX2.
