@@ -5,13 +5,19 @@
 #include <queue>
 
 #include "lightwell/mesh/vertex_codes.h"
+#include "lightwell/pack/directory.h"
 
 namespace lightwell {
 namespace {
 
-// Bytes of a primitive and its arrays in the JSON, and of a stream in JSON and directory; measured on scenes of up to a
-// hundred of them.
-constexpr uint64_t primitive_bytes = 400, stream_bytes = 350;
+// Bytes of a primitive and its arrays in the JSON; measured on scenes of up to a hundred of them.
+constexpr uint64_t primitive_bytes = 400;
+
+// Of a stream in JSON and directory, which has a row for each of its first blocks.
+uint64_t stream_bytes(size_t vertices) {
+  constexpr uint64_t without_rows = 250, vertices_of_a_block = 400;
+  return without_rows + row_bytes * std::clamp<uint64_t>(vertices / vertices_of_a_block, 8, rows_per_page);
+}
 
 uint64_t bytes_per_vertex(const Mesh& mesh) {
   uint64_t bytes = sizeof(Vec3f);
@@ -47,7 +53,8 @@ std::vector<OpeningForm> opening_forms(const Mesh& mesh, const SimplifiedMesh& s
   const std::vector<SimplifiedMesh::Level> levels = simplified.levels();
   std::vector<OpeningForm> forms = {{opening_bytes(mesh, mesh.positions.size(), mesh.faces.size()), 0}};
   for (size_t i = 1; i < levels.size(); i++)
-    forms.push_back({opening_bytes(mesh, levels[i].vertices, levels[i].faces) + stream_bytes, levels[i].error * scale});
+    forms.push_back({opening_bytes(mesh, levels[i].vertices, levels[i].faces) + stream_bytes(mesh.positions.size()),
+                     levels[i].error * scale});
   return forms;
 }
 
