@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
+#include <string>
 
 #include "lightwell/gltf/references.h"
 
@@ -12,6 +12,8 @@ namespace {
 
 /// Scenes of no more parts keep each a mesh of its own: the JSON of so many fits well into the opening.
 constexpr size_t few_parts = 32;
+/// Of no more materials each keeps its name, by which a program may look for it.
+constexpr size_t few_materials = 64;
 /// Fewer parts for a primitive, in the mean, spare too little for what is lost: each a mesh that a program can address.
 constexpr size_t parts_of_a_primitive = 2;
 /// A part of more vertices is refined by itself: its stream costs little beside them.
@@ -106,32 +108,46 @@ bool can_be_merged(const Shown& shown, const Json& mesh) {
          (shown.vertices <= vertices_of_a_node || (shown.nodes - 1) * shown.vertices <= vertices_of_a_stream);
 }
 
+std::vector<int> alike_materials(const Json& json) {
+  std::map<std::string, int> first;
+  std::vector<int> alike;
+  const Json& materials = member(json, "materials");
+  for (Json material : materials) {
+    if (materials.size() > few_materials) {
+      material.erase("name");
+      material.erase("extras");
+    }
+    alike.push_back(first.emplace(json_text(material), static_cast<int>(alike.size())).first->second);
+  }
+  return alike;
+}
+
 /// A mesh none of whose primitives has another of its kind gains nothing; nor do parts of nearly as many kinds.
-void keep_those_alone(const Scene& scene, std::vector<bool>& meshes) {
+void keep_those_alone(const Scene& scene, const std::vector<int>& alike, std::vector<bool>& meshes) {
   std::map<PartKind, size_t> parts;
   size_t all = 0;
   const auto merged = [&](const Primitive& primitive) { return meshes[static_cast<size_t>(primitive.source_mesh)]; };
   for (const Instance& instance : scene.instances) {
     const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
     if (!merged(primitive)) continue;
-    parts[kind_of(primitive)]++;
+    parts[kind_of(primitive, alike)]++;
     all++;
   }
   const bool many = all > few_parts && all >= parts_of_a_primitive * parts.size();
   std::vector<bool> gain(meshes.size());
   for (const Primitive& primitive : scene.primitives)
-    if (many && merged(primitive) && parts[kind_of(primitive)] > 1)
+    if (many && merged(primitive) && parts[kind_of(primitive, alike)] > 1)
       gain[static_cast<size_t>(primitive.source_mesh)] = true;
   meshes = gain;
 }
 
 }  // namespace
 
-PartKind kind_of(const Primitive& primitive) {
+PartKind kind_of(const Primitive& primitive, const std::vector<int>& alike) {
   const Mesh& mesh = primitive.mesh;
   const unsigned attributes = (mesh.normals.empty() ? 0u : 1u) | (mesh.texcoords[0].empty() ? 0u : 2u) |
                               (mesh.texcoords[1].empty() ? 0u : 4u) | (mesh.colors.empty() ? 0u : 8u);
-  return {primitive.material, attributes};
+  return {primitive.material < 0 ? -1 : alike[static_cast<size_t>(primitive.material)], attributes};
 }
 
 MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> lamps) {
@@ -144,7 +160,8 @@ MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> l
   const std::vector<Shown> shown = shown_meshes(scene, is_static);
   for (size_t mesh = 0; mesh < shown.size(); mesh++)
     parts.meshes.push_back(can_be_merged(shown[mesh], json["meshes"][mesh]));
-  keep_those_alone(scene, parts.meshes);
+  parts.alike = alike_materials(json);
+  keep_those_alone(scene, parts.alike, parts.meshes);
 
   parts.nodes.resize(is_static.size());
   for (size_t i = fixed.size(); i-- > 0;) {  // children before their parents

@@ -13,6 +13,9 @@ namespace lightwell {
 struct MergeableParts {
   std::vector<bool> meshes;  ///< of the document: all their primitives do
   std::vector<bool> nodes;   ///< of the document: hold nothing but such meshes, so that the opening need not have them
+  /// Of each material the first one that is the same; of very many, that differs in its name and extras alone, since
+  /// there are exporters that make one for each part.
+  std::vector<int> alike;
 };
 
 /// The parts that stay as the file has them together, whatever is done with a pack: static, without extensions, shown
@@ -23,6 +26,6 @@ MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> l
 
 /// What primitives need in common to be merged: material and attributes.
 using PartKind = std::pair<int, unsigned>;
-PartKind kind_of(const Primitive& primitive);
+PartKind kind_of(const Primitive& primitive, const std::vector<int>& alike);
 
 }  // namespace lightwell

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "lightwell/gltf/references.h"
 #include "lightwell/packing/mergeable_parts.h"
@@ -65,11 +66,14 @@ class Merger {
   std::optional<MergedParts> merge() {
     const MergeableParts parts = mergeable_parts(scene_, lamps_);
     if (std::ranges::none_of(parts.meshes, [](bool merged) { return merged; })) return std::nullopt;
-    merge_primitives(parts.meshes);
-    const Renumbering nodes(parts.nodes), meshes(parts.meshes);
+    merge_primitives(parts);
+    const Renumbering nodes(parts.nodes), meshes(parts.meshes), materials(materials_that_go(parts));
     take_arrays_of_what_goes(parts.meshes);
     renumber(json(), "nodes", nodes);
     renumber(json(), "meshes", meshes);
+    renumber(json(), "materials", materials);
+    if (materials.staying < static_cast<int>(materials.numbers.size()))
+      take_out(json(), "materials", materials, merged_.file.materials);
     take_out(json(), "nodes", nodes, merged_.file.nodes);
     take_out(json(), "meshes", meshes, merged_.file.meshes);
     take_references(nodes.staying, meshes.staying);
@@ -80,6 +84,12 @@ class Merger {
     for (Instance& instance : scene_.instances) instance.node = nodes(instance.node);
     drop(parts.meshes);
     for (Primitive& primitive : scene_.primitives) primitive.source_mesh = meshes(primitive.source_mesh);
+    for (auto* primitives : {&scene_.primitives, &primitives_})
+      for (Primitive& primitive : *primitives) primitive.material = materials(primitive.material);
+    std::vector<Material> ordered(scene_.materials.size());
+    for (size_t i = 0; i < ordered.size(); i++)
+      ordered[static_cast<size_t>(materials.numbers[i])] = std::move(scene_.materials[i]);
+    scene_.materials = std::move(ordered);
     show(nodes.staying, meshes.staying);
     return std::move(merged_);
   }
@@ -88,14 +98,14 @@ class Merger {
   Json& json() { return scene_.document.json; }
 
   /// Puts every part into the mesh of its kind.
-  void merge_primitives(const std::vector<bool>& goes) {
+  void merge_primitives(const MergeableParts& parts) {
     std::map<PartKind, size_t> kinds;
     for (const Instance& instance : scene_.instances) {
       const Primitive& primitive = scene_.primitives[static_cast<size_t>(instance.primitive)];
-      if (!goes[static_cast<size_t>(primitive.source_mesh)]) continue;
-      const auto [kind, is_new] = kinds.emplace(kind_of(primitive), kinds.size());
+      if (!parts.meshes[static_cast<size_t>(primitive.source_mesh)]) continue;
+      const auto [kind, is_new] = kinds.emplace(kind_of(primitive, parts.alike), kinds.size());
       if (is_new) {
-        primitives_.push_back({{}, primitive.material, -1, static_cast<int>(kind->second)});
+        primitives_.push_back({{}, kind->first.first, -1, static_cast<int>(kind->second)});
         merged_.meshes.emplace_back();
         merged_.file.merged.emplace_back();
       }
@@ -103,6 +113,24 @@ class Merger {
       merged_.file.merged[kind->second].parts.push_back(
           {static_cast<uint32_t>(instance.node), static_cast<uint32_t>(primitive.source_primitive)});
     }
+  }
+
+  /// Those that only what goes has, and for which another stands.
+  std::vector<bool> materials_that_go(const MergeableParts& parts) {
+    std::vector<bool> goes(parts.alike.size());
+    for (const Primitive& primitive : scene_.primitives)
+      if (primitive.material >= 0 && parts.meshes[static_cast<size_t>(primitive.source_mesh)]) {
+        const auto material = static_cast<size_t>(primitive.material);
+        goes[material] = parts.alike[material] != primitive.material;
+      }
+    Json staying = {{"meshes", Json::array()}};
+    for (size_t i = 0; i < parts.meshes.size(); i++)
+      if (!parts.meshes[i]) staying["meshes"].push_back(json()["meshes"][i]);
+    for_each_reference(std::as_const(staying), "materials",
+                       [&](const Json& value, std::string_view, const ReferencePlace&) {
+                         goes[static_cast<size_t>(whole_number(value))] = false;
+                       });
+    return goes;
   }
 
   void append(const Mesh& part, const Transform& to_scene, size_t kind) {

@@ -64,7 +64,7 @@ OpeningBudget OpeningBudget::of(size_t meshes, float scene_size) {
 }
 
 OpeningBudget OpeningBudget::beside(uint64_t rest) {
-  constexpr uint64_t request = 62 << 10, least = 16 << 10;
+  constexpr uint64_t request = 62 << 10, least = 40 << 10;
   const uint64_t left = std::max(least, request - std::min(request, rest));
   return {left, left, 0};
 }

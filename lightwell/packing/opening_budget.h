@@ -31,7 +31,7 @@ struct OpeningBudget {
   /// unrecognisable with less.
   static OpeningBudget of(size_t meshes, float scene_size);
   /// Of a scene whose parts are merged: what `rest` bytes of the opening, an estimate, leave of that request,
-  /// at least 16 KB.
+  /// at least 40 KB.
   static OpeningBudget beside(uint64_t rest);
 };
 

@@ -65,8 +65,9 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
   use_extension(json, lamps_extension);
   if (content.parts) {
     const auto all_but_last = [&](const char* array) { return static_cast<uint32_t>(json[array].size() - 1); };
-    json["extensions"][parts_extension] = to_json(
-        PartsDescription{static_cast<uint32_t>(content.parts_stream()), all_but_last("nodes"), all_but_last("meshes")});
+    const auto materials = static_cast<uint32_t>(member(json, "materials").size());
+    json["extensions"][parts_extension] = to_json(PartsDescription{
+        static_cast<uint32_t>(content.parts_stream()), all_but_last("nodes"), all_but_last("meshes"), materials});
     use_extension(json, parts_extension);
   }
   if (!content.environment) return;

@@ -148,7 +148,8 @@ PackStream parts_stream(const PartsFile& parts) {
   return stream;
 }
 
-// About the bytes of the opening and the directory that meshes do not take.
+// About the bytes of the opening and the directory that meshes do not take, and of the first light, which shall come
+// with them: without it the first picture is lit by the corners of the grid alone.
 uint64_t rest_of_opening(const Document& document, const PackLight& light, const PackContent& content) {
   constexpr uint64_t stream_head_bytes = 28, json_of_a_grid = 400, json_of_an_image = 250;
   const auto entry = [](size_t parameters, size_t blocks) {
@@ -158,7 +159,10 @@ uint64_t rest_of_opening(const Document& document, const PackLight& light, const
   for (const char* array : {"meshes", "accessors", "bufferViews", "images"}) json.erase(array);
   uint64_t bytes =
       json_text(json).size() + json_text(to_json(light.lamps)).size() + json_of_a_grid * light.grids.size();
-  for (const PackStream& stream : content.light.streams) bytes += entry(stream.parameters.size(), stream.blocks.size());
+  for (const PackStream& stream : content.light.streams) {
+    bytes += entry(stream.parameters.size(), stream.blocks.size());
+    if (stream.kind == StreamKind::light && !stream.blocks.empty()) bytes += stream.blocks.front().payload.size();
+  }
   for (const StreamedImage& image : content.images)
     bytes += entry(encode_texture_parameters(image.parameters).size(), file_blocks(image.file).size());
   for (const Json& image : member(document.json, "images")) {

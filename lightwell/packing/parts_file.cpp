@@ -42,23 +42,32 @@ Result<PartsFile::Merged> read_merged(const Json& json, const std::string& name)
 }  // namespace
 
 Json to_json(const PartsDescription& description) {
-  return {{"stream", description.stream}, {"nodes", description.nodes}, {"meshes", description.meshes}};
+  return {{"stream", description.stream},
+          {"nodes", description.nodes},
+          {"meshes", description.meshes},
+          {"materials", description.materials}};
 }
 
 Result<std::optional<PartsDescription>> read_parts_description(const Json& json) {
   const Json& said = extension(json, parts_extension);
   if (said.is_null()) return std::nullopt;
   MemberReader reader(said, parts_extension);
-  const PartsDescription description{reader.whole("stream"), reader.whole("nodes"), reader.whole("meshes")};
+  const PartsDescription description{reader.whole("stream"), reader.whole("nodes"), reader.whole("meshes"),
+                                     reader.whole("materials")};
   if (member(json, "nodes").size() != size_t(description.nodes) + 1)
     reader.refuse("nodes", "are not all nodes but the last");
   if (member(json, "meshes").size() != size_t(description.meshes) + 1)
     reader.refuse("meshes", "are not all meshes but the last");
+  if (member(json, "materials").size() != description.materials) reader.refuse("materials", "are not all materials");
   return reader.finish(std::optional(description));
 }
 
 std::vector<uint8_t> write_parts_file(const PartsFile& file, uint32_t& inflated) {
-  Json json = {{"nodes", file.nodes}, {"meshes", file.meshes}, {"roots", file.roots}, {"shown", file.shown}};
+  Json json = {{"nodes", file.nodes},
+               {"meshes", file.meshes},
+               {"materials", file.materials},
+               {"roots", file.roots},
+               {"shown", file.shown}};
   for (const PartsFile::Merged& merged : file.merged) json["merged"].push_back(to_json(merged));
   const std::string text = json_text(json);
   inflated = static_cast<uint32_t>(text.size());
@@ -73,6 +82,7 @@ Result<PartsFile> read_parts_file(Bytes bytes, uint32_t inflated) {
   PartsFile file;
   file.nodes = reader.array("nodes");
   file.meshes = reader.array("meshes");
+  file.materials = reader.array("materials");
   file.roots = reader.array("roots");
   file.shown = reader.array("shown");
   const Json& merged = reader.array("merged");

@@ -14,8 +14,9 @@ inline constexpr const char* parts_extension = "LIGHTWELL_parts";
 
 struct PartsDescription {
   uint32_t stream = 0;
-  uint32_t nodes = 0;   ///< of the opening that are the file's; the next one shows the merged mesh
-  uint32_t meshes = 0;  ///< likewise
+  uint32_t nodes = 0;      ///< of the opening that are the file's; the next one shows the merged mesh
+  uint32_t meshes = 0;     ///< likewise
+  uint32_t materials = 0;  ///< of the opening, all of them the file's
 
   bool operator==(const PartsDescription&) const = default;
 };
@@ -25,8 +26,8 @@ Json to_json(const PartsDescription& description);
 /// Reads it from a pack's JSON, where that has it. Fails where it is invalid, or nodes and meshes are not so many.
 Result<std::optional<PartsDescription>> read_parts_description(const Json& json);
 
-/// What the stream says: the nodes and meshes of the file that the opening does not have, which are numbered behind its
-/// own.
+/// What the stream says: the nodes, meshes and materials of the file that the opening does not have, which are numbered
+/// behind its own.
 struct PartsFile {
   /// A primitive of a node's mesh.
   struct Part {
@@ -40,9 +41,10 @@ struct PartsFile {
   };
 
   Json nodes = Json::array();
-  Json meshes = Json::array();  ///< their primitives without arrays
-  Json roots = Json::array();   ///< [node, parent]: of nodes that an own node holds, or (-1) the scene
-  Json shown = Json::array();   ///< [node, mesh]: meshes that own nodes show
+  Json meshes = Json::array();     ///< their primitives without arrays
+  Json materials = Json::array();  ///< for which others stand that differ in name and extras alone
+  Json roots = Json::array();      ///< [node, parent]: of nodes that an own node holds, or (-1) the scene
+  Json shown = Json::array();      ///< [node, mesh]: meshes that own nodes show
   std::vector<Merged> merged;
 };
 

@@ -130,6 +130,7 @@ class Restoration {
     }
     for (Json& node : file_.nodes) json_["nodes"].push_back(std::move(node));
     for (Json& mesh : file_.meshes) json_["meshes"].push_back(std::move(mesh));
+    for (Json& material : file_.materials) json_["materials"].push_back(std::move(material));
     for (const Json& root : file_.roots) {
       const Json& parent = element(root, 1);
       const int64_t above = whole_number(parent);

@@ -45,7 +45,8 @@ Mesh box(const Vec3f& size) {
 class Building {
  public:
   explicit Building(size_t count) : builder_(document_) {
-    for (int i = 0; i < 3; i++) builder_.add("materials", {{"name", "material " + std::to_string(i)}});
+    for (int i = 0; i < 3; i++)
+      builder_.add("materials", {{"name", "material " + std::to_string(i)}});  // but for it alike
     const std::vector<Json> storeys = {{{"name", "ground"}},
                                        {{"name", "first"}, {"translation", {0, 3, 0}}, {"scale", {-1, 1, 1}}},
                                        {{"name", "second"}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {1, 2, 0.5}}}};
@@ -159,6 +160,33 @@ TEST(Parts, OfASceneOfManyAreOneMeshWithAPrimitiveAMaterial) {
   // As the design asks of the first request (streaming.md); 600 primitives with JSON of their own take ten times that.
   EXPECT_LT(packed.statistics.opening_bytes, 64u << 10);
   EXPECT_TRUE(verify_pack(opened).errors.empty());
+}
+
+// Exporters make a material for each part.
+TEST(Parts, OfMaterialsThatDifferInTheirNamesAreMerged) {
+  Document source = Building(300).finish();
+  Json materials = Json::array();
+  for (size_t i = 0; i < 300; i++) {
+    Json& primitive = source.json["meshes"][i]["primitives"][0];
+    materials.push_back({{"name", "of part " + std::to_string(i)},
+                         {"pbrMetallicRoughness", {{"metallicFactor", primitive["material"].get<int>() / 2.0}}}});
+    primitive["material"] = i;
+  }
+  source.json["materials"] = materials;
+  const Packed packed = pack(source);
+  const OpenedPack opened = open(packed.file);
+  ASSERT_TRUE(opened.parts());
+  EXPECT_EQ(opened.json()["materials"].size(), 3u);
+  EXPECT_EQ(opened.json()["meshes"][0]["primitives"].size(), 3u);
+  EXPECT_TRUE(verify_pack(opened).errors.empty());
+  const Document restored = apart(opened);
+  ASSERT_EQ(restored.json["materials"].size(), 300u);
+  for (const Json& mesh : source.json["meshes"]) {
+    const auto material_of = [](const Document& document, const Json& of) {
+      return document.json["materials"][of["primitives"][0]["material"].get<size_t>()];
+    };
+    EXPECT_EQ(material_of(restored, named(restored.json, "meshes", text(mesh, "name"))), material_of(source, mesh));
+  }
 }
 
 // A mesh that many nodes show is merged once for each where that takes less than their JSON; else they keep it.

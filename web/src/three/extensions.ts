@@ -98,6 +98,8 @@ export interface PartsDescription {
   nodes: number;
   /** The number of that mesh. */
   meshes: number;
+  /** How many materials the opening has. */
+  materials: number;
 }
 
 /** The extensions that stand at the root of a pack's JSON. */
