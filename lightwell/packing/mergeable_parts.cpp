@@ -89,7 +89,8 @@ std::vector<Shown> shown_meshes(const Scene& scene, const std::vector<bool>& is_
   for (const Primitive& primitive : scene.primitives) {
     const auto mesh = static_cast<size_t>(primitive.source_mesh);
     const bool plain = is_plain(json["meshes"][mesh]["primitives"][static_cast<size_t>(primitive.source_primitive)]);
-    if (primitive.deforming || primitive.mesh.faces.empty() || !plain) continue;
+    const bool blended = scene.material_of(primitive).alpha == Material::Alpha::blend;
+    if (primitive.deforming || primitive.mesh.faces.empty() || !plain || blended) continue;
     shown[mesh].primitives++;
     const size_t vertices = primitive.mesh.positions.size();
     shown[mesh].vertices += vertices;

@@ -328,6 +328,9 @@ TEST(Parts, StayWhereSomethingMovesThemOrTellsThemApart) {
   building.json()["animations"] = {
       {{"samplers", {{{"input", input}, {"output", values}}}},
        {"channels", {{{"sampler", 0}, {"target", {{"node", animated}, {"path", "translation"}}}}}}}};
+  const int glass = building.builder().add("materials", {{"alphaMode", "BLEND"}});
+  own("pane", Json::object());
+  building.json()["meshes"].back()["primitives"][0]["material"] = glass;
   const int twice = building.mesh(0, "shown twice");
   building.root(building.node({{"name", "one"}, {"mesh", twice}, {"translation", {0, 0, 9}}}));
   building.root(building.node({{"name", "two"}, {"mesh", twice}, {"translation", {0, 0, 12}}}));
@@ -342,7 +345,7 @@ TEST(Parts, StayWhereSomethingMovesThemOrTellsThemApart) {
   const OpenedPack opened = open(packed.file);
   ASSERT_TRUE(opened.parts());
   const Json& json = opened.json();
-  for (const char* stays : {"animated", "lamp", "luminaire"}) {
+  for (const char* stays : {"animated", "lamp", "luminaire", "pane"}) {
     ASSERT_FALSE(named(json, "nodes", stays).is_null()) << stays;
     EXPECT_EQ(text(json["meshes"][static_cast<size_t>(index_of(named(json, "nodes", stays), "mesh"))], "name"), stays);
   }
