@@ -8,16 +8,19 @@ namespace lightwell {
 /// The codec number of this header's format: a gzip file (RFC 1952) of JSON.
 inline constexpr uint8_t parts_codec_gzip = 0;
 
-/// A file may inflate to so much whatever its size, and else to so many times its size.
-constexpr uint64_t parts_free_inflation = 1 << 20, parts_most_inflation = 200;
+/// A file may inflate to so much whatever its size, and to so many times its size beyond that: JSON takes sixteen times the
+/// memory of its text.
+constexpr uint64_t parts_free_inflation = 1 << 20, parts_most_inflation = 16;
 
 /// The parameters of a stream of parts (docs/format.md).
 struct PartsParameters {
   uint32_t bytes = 0;     ///< of the whole file
   uint32_t inflated = 0;  ///< bytes of the JSON
 
+  /// Whether a reader takes it: not where it is empty, or would inflate to more than its bytes allow.
+  bool possible() const { return bytes > 0 && inflated <= parts_free_inflation + parts_most_inflation * bytes; }
   std::vector<uint8_t> write() const;
-  /// Fails for a wrong length, an empty file and one that would inflate to more than its bytes allow.
+  /// Fails for a wrong length and for what is not possible.
   static Result<PartsParameters> read(Bytes bytes);
 };
 

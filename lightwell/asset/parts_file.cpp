@@ -18,8 +18,7 @@ Result<PartsParameters> PartsParameters::read(Bytes bytes) {
   parameters.bytes = reader.u32();
   parameters.inflated = reader.u32();
   if (!reader.ok() || reader.remaining() > 0) return fail("parameters", "wrong length");
-  const uint64_t most = parts_free_inflation + parts_most_inflation * parameters.bytes;
-  if (parameters.bytes == 0 || parameters.inflated > most) return fail("parameters", "no size of a gzip file");
+  if (!parameters.possible()) return fail("parameters", "no size of a gzip file");
   return parameters;
 }
 

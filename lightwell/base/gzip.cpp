@@ -14,9 +14,10 @@ constexpr int gzip_window = 15 + 16, memory_level = 8;
 
 }  // namespace
 
-std::vector<uint8_t> gzip(Bytes bytes) {
+std::vector<uint8_t> gzip(Bytes bytes, bool compressed) {
   z_stream stream{};
-  int status = deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, memory_level, Z_DEFAULT_STRATEGY);
+  const int level = compressed ? Z_DEFAULT_COMPRESSION : Z_NO_COMPRESSION;
+  int status = deflateInit2(&stream, level, Z_DEFLATED, gzip_window, memory_level, Z_DEFAULT_STRATEGY);
   LW_ASSERT(status == Z_OK);
   std::vector<uint8_t> packed(deflateBound(&stream, static_cast<uLong>(bytes.size())));
   stream.next_in = const_cast<Bytef*>(bytes.data());

@@ -21,6 +21,7 @@ namespace {
 Result<OpenedScene> open_pack(const std::string& path, const MeshLevel& level, ImageLimit images, Report& report) {
   LW_TRY(pack, OpenedPack::open_file(path));
   LW_TRY(document, unpack_document(pack, level, report));
+  LW_CHECK(unpack_parts(pack, document));
   LW_TRY(scene, scene_from_document(std::move(document), std::filesystem::path(path).stem().string(), report,
                                     pack.identity().origin, images));
   LW_TRY(surroundings, unpack_environment(pack, images));

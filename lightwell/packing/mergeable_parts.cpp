@@ -2,6 +2,7 @@
 #include "lightwell/packing/mergeable_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -12,6 +13,8 @@ namespace {
 
 /// Scenes of no more parts keep each a mesh of its own: the JSON of so many fits well into the opening.
 constexpr size_t few_parts = 32;
+/// Of the lattice that parts share: what it can have over all of them, and what the least of them has.
+constexpr float steps_of_all = 1 << 20, steps_of_a_part = 1 << 10;
 /// Of no more materials each keeps its name, by which a program may look for it.
 constexpr size_t few_materials = 64;
 /// Fewer parts for a primitive, in the mean, spare too little for what is lost: each a mesh that a program can address.
@@ -68,6 +71,14 @@ std::vector<size_t> static_nodes(const Json& json, std::span<const ClientLamp> l
   return nodes;
 }
 
+/// Whether animations name what they move by its place in the JSON (KHR_animation_pointer), which merging changes.
+bool points_by_path(const Json& json) {
+  for (const Json& animation : member(json, "animations"))
+    for (const Json& channel : member(animation, "channels"))
+      if (!member(member(channel, "target"), "extensions").empty()) return true;
+  return false;
+}
+
 /// What of the scene shows a mesh.
 struct Shown {
   size_t nodes = 0;                        // in the document
@@ -78,6 +89,15 @@ struct Shown {
 
 bool is_plain(const Json& primitive) {
   return member(primitive, "extensions").empty() && member(primitive, "targets").empty();
+}
+
+/// Whether its texture coordinates have the fine step of packs on the 21 bits that they may have.
+bool has_usual_texcoords(const Mesh& mesh) {
+  constexpr float farthest = 64;
+  for (const auto& set : mesh.texcoords)
+    for (const Vec2f& t : set)
+      if (!(std::abs(t[0]) <= farthest && std::abs(t[1]) <= farthest)) return false;
+  return true;
 }
 
 std::vector<Shown> shown_meshes(const Scene& scene, const std::vector<bool>& is_static) {
@@ -91,6 +111,7 @@ std::vector<Shown> shown_meshes(const Scene& scene, const std::vector<bool>& is_
     const bool plain = is_plain(json["meshes"][mesh]["primitives"][static_cast<size_t>(primitive.source_primitive)]);
     const bool blended = scene.material_of(primitive).alpha == Material::Alpha::blend;
     if (primitive.deforming || primitive.mesh.faces.empty() || !plain || blended) continue;
+    if (!has_usual_texcoords(primitive.mesh)) continue;
     shown[mesh].primitives++;
     const size_t vertices = primitive.mesh.positions.size();
     shown[mesh].vertices += vertices;
@@ -107,6 +128,40 @@ bool can_be_merged(const Shown& shown, const Json& mesh) {
   return is_plain(mesh) && shown.primitives > 0 && shown.primitives == member(mesh, "primitives").size() &&
          shown.instances == shown.primitives * shown.nodes && shown.most_vertices <= many_vertices &&
          (shown.vertices <= vertices_of_a_node || (shown.nodes - 1) * shown.vertices <= vertices_of_a_stream);
+}
+
+Box3f bounds_of(const Box3f& box, const Transform& to_scene) {
+  Box3f bounds;
+  for (int corner = 0; corner < 8; corner++) {
+    Vec3f p = box.lo;
+    for (int i = 0; i < 3; i++)
+      if (corner >> i & 1) p[i] = box.hi[i];
+    bounds.extend(to_scene.point(p));
+  }
+  return bounds;
+}
+
+/// The parts of a kind share a lattice, of 21 bits over all of them: what is too small for it stays by itself.
+void keep_the_small(const Scene& scene, const std::vector<int>& alike, std::vector<bool>& meshes) {
+  std::vector<Box3f> boxes;
+  for (const Primitive& primitive : scene.primitives) boxes.push_back(primitive.mesh.bounds());
+  std::map<PartKind, Box3f> extents;
+  const auto each_part = [&](const auto& visit) {
+    for (const Instance& instance : scene.instances) {
+      const auto index = static_cast<size_t>(instance.primitive);
+      const Primitive& primitive = scene.primitives[index];
+      const auto mesh = static_cast<size_t>(primitive.source_mesh);
+      if (meshes[mesh]) visit(mesh, kind_of(primitive, alike), bounds_of(boxes[index], instance.to_scene));
+    }
+  };
+  each_part([&](size_t, const PartKind& kind, const Box3f& box) { extents[kind].extend(box); });
+  std::vector<bool> small(meshes.size());
+  each_part([&](size_t mesh, const PartKind& kind, const Box3f& box) {
+    if (!(max_component(box.size()) * steps_of_all >= max_component(extents[kind].size()) * steps_of_a_part))
+      small[mesh] = true;
+  });
+  for (size_t mesh = 0; mesh < meshes.size(); mesh++)
+    if (small[mesh]) meshes[mesh] = false;
 }
 
 std::vector<int> alike_materials(const Json& json) {
@@ -159,9 +214,11 @@ MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> l
 
   MergeableParts parts;
   const std::vector<Shown> shown = shown_meshes(scene, is_static);
+  const bool pointed = points_by_path(json);
   for (size_t mesh = 0; mesh < shown.size(); mesh++)
-    parts.meshes.push_back(can_be_merged(shown[mesh], json["meshes"][mesh]));
+    parts.meshes.push_back(!pointed && can_be_merged(shown[mesh], json["meshes"][mesh]));
   parts.alike = alike_materials(json);
+  keep_the_small(scene, parts.alike, parts.meshes);
   keep_those_alone(scene, parts.alike, parts.meshes);
 
   parts.nodes.resize(is_static.size());

@@ -19,10 +19,10 @@ struct MergeableParts {
 };
 
 /// The parts that stay as the file has them together, whatever is done with a pack: static, without extensions, shown
-/// by the default scene alone, not blended (those are drawn from the farthest to the nearest), no lamp's own surface.
-/// Of scenes of few parts none, since the opening can name them all; nor where nearly each is of a kind of its own; nor
-/// what has vertices enough to be worth a stream of its own, or is shown so often that its copies would take more bytes
-/// than that and its nodes.
+/// by the default scene alone, not blended (those are drawn from the farthest to the nearest), no lamp's own surface,
+/// not so small beside all of its kind that the lattice they share would change its form. Of scenes of few parts none,
+/// since the opening can name them all; nor where nearly each is of a kind of its own; nor what has vertices enough to
+/// be worth a stream of its own, or is shown so often that its copies would take more bytes than that and its nodes.
 MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> lamps);
 
 /// What primitives need in common to be merged: material and attributes.

@@ -2,6 +2,7 @@
 #include "lightwell/packing/merged_parts.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -151,7 +152,15 @@ class Merger {
     const bool mirrored = to_scene.determinant() < 0;
     for (const Face& f : part.faces)
       mesh.faces.push_back({first + f[0], first + f[mirrored ? 2 : 1], first + f[mirrored ? 1 : 2]});
-    if (!bounds.empty()) merged.part_size = std::max(merged.part_size, max_component(bounds.size()));
+    if (bounds.empty()) return;
+    // The least part has 10 bits then.
+    constexpr float largest_to_least = 16;
+    const float side = max_component(bounds.size());
+    sides_.resize(merged_.meshes.size());
+    auto& [least, largest] = sides_[kind];
+    least = std::min(least, side);
+    largest = std::max(largest, side);
+    merged.part_size = std::min(largest, largest_to_least * least);
   }
 
   void take_arrays_of_what_goes(const std::vector<bool>& goes) {
@@ -216,7 +225,11 @@ class Merger {
   std::vector<ClientLamp>& lamps_;
   std::set<std::string>& lost_;
   MergedParts merged_;
+  struct Sides {
+    float least = std::numeric_limits<float>::infinity(), largest = 0;
+  };
   std::vector<Primitive> primitives_;  ///< of the merged mesh, by kind
+  std::vector<Sides> sides_;           ///< of its parts, by kind
 };
 
 }  // namespace

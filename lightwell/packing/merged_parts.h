@@ -15,7 +15,7 @@ namespace lightwell {
 /// The last mesh of a document, shown by its last node: in scene space, a primitive a kind of parts.
 struct MergedMesh {
   std::vector<uint32_t> part_of_vertex;
-  float part_size = 0;  ///< longest side of its largest part, metres
+  float part_size = 0;  ///< what has 14 bits: the longest side of its largest part, at most 16 times that of the least
 };
 
 /// The parts of a scene that were merged.

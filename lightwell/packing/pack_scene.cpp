@@ -140,8 +140,7 @@ PackStream parts_stream(const PartsFile& parts) {
   stream.kind = StreamKind::parts;
   stream.codec = parts_codec_gzip;
   PartsParameters parameters;
-  const std::vector<uint8_t> file = write_parts_file(parts, parameters.inflated);
-  parameters.bytes = static_cast<uint32_t>(file.size());
+  const std::vector<uint8_t> file = write_parts_file(parts, parameters);
   stream.parameters = parameters.write();
   for (const Bytes block : file_blocks(file))
     stream.blocks.push_back({{block.begin(), block.end()}, static_cast<uint32_t>(block.size()), 0});

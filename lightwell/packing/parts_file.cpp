@@ -62,7 +62,7 @@ Result<std::optional<PartsDescription>> read_parts_description(const Json& json)
   return reader.finish(std::optional(description));
 }
 
-std::vector<uint8_t> write_parts_file(const PartsFile& file, uint32_t& inflated) {
+std::vector<uint8_t> write_parts_file(const PartsFile& file, PartsParameters& parameters) {
   Json json = {{"nodes", file.nodes},
                {"meshes", file.meshes},
                {"materials", file.materials},
@@ -70,8 +70,12 @@ std::vector<uint8_t> write_parts_file(const PartsFile& file, uint32_t& inflated)
                {"shown", file.shown}};
   for (const PartsFile::Merged& merged : file.merged) json["merged"].push_back(to_json(merged));
   const std::string text = json_text(json);
-  inflated = static_cast<uint32_t>(text.size());
-  return gzip(as_bytes(text));
+  std::vector<uint8_t> packed = gzip(as_bytes(text));
+  parameters = {static_cast<uint32_t>(packed.size()), static_cast<uint32_t>(text.size())};
+  if (parameters.possible()) return packed;
+  packed = gzip(as_bytes(text), false);
+  parameters.bytes = static_cast<uint32_t>(packed.size());
+  return packed;
 }
 
 Result<PartsFile> read_parts_file(Bytes bytes, uint32_t inflated) {

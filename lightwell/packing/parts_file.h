@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "lightwell/asset/parts_asset.h"
 #include "lightwell/gltf/json.h"
 
 namespace lightwell {
@@ -48,8 +49,8 @@ struct PartsFile {
   std::vector<Merged> merged;
 };
 
-/// The stream's gzip file.
-std::vector<uint8_t> write_parts_file(const PartsFile& file, uint32_t& inflated);
+/// The stream's gzip file, and its sizes. What repeats itself more than a reader takes is not compressed.
+std::vector<uint8_t> write_parts_file(const PartsFile& file, PartsParameters& parameters);
 
 /// Reads it. Fails where it is damaged, or larger than `inflated`, or not as the format says; what its nodes and meshes
 /// hold is not checked.

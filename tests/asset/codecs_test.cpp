@@ -234,8 +234,8 @@ TEST(Codecs, PartsThatPromiseTooMuchAreRefused) {
     AssetContext context;
     return open_asset(directory, 0, context).has_value();
   };
-  EXPECT_TRUE(opens(directory_of_parts(1000, 1'200'000)));
-  EXPECT_FALSE(opens(directory_of_parts(1000, 1'300'000))) << "more than 2^20 and 200 times its bytes";
+  EXPECT_TRUE(opens(directory_of_parts(1000, 1'064'000)));
+  EXPECT_FALSE(opens(directory_of_parts(1000, 1'065'000))) << "more than 2^20 and 16 times its bytes";
   EXPECT_FALSE(opens(directory_of_parts(0, 0)));
   EXPECT_FALSE(opens(directory_of_parts(100'001, 0))) << "more than the stream has";
   Directory directory = directory_of_parts(1000, 1000);

@@ -162,6 +162,67 @@ TEST(Parts, OfASceneOfManyAreOneMeshWithAPrimitiveAMaterial) {
   EXPECT_TRUE(verify_pack(opened).errors.empty());
 }
 
+// A lattice of 21 bits over all would make boxes of them.
+TEST(Parts, ThatAreTinyBesideTheOthersKeepTheirForm) {
+  Building building(0);
+  building.root(building.node({{"name", "floor"}, {"mesh", building.mesh(0, "floor")}, {"scale", {100, 1, 100}}}));
+  for (int i = 0; i < 80; i++) {
+    Json primitive = building.builder().primitive(seamed_sphere(4, 6));
+    primitive["material"] = 0;
+    const int mesh = building.builder().add("meshes", {{"primitives", Json::array({primitive})}});
+    const double size = i < 40 ? 0.003 : 1;
+    building.root(building.node({{"name", "ball " + std::to_string(i)},
+                                 {"mesh", mesh},
+                                 {"translation", {1.25 * i, 0, 0}},
+                                 {"scale", {size, size, size}}}));
+  }
+  const Packed packed = pack(building.finish());
+  const OpenedPack opened = open(packed.file);
+  ASSERT_TRUE(opened.parts());
+  EXPECT_FALSE(named(opened.json(), "nodes", "ball 7").is_null());
+  EXPECT_TRUE(named(opened.json(), "nodes", "ball 70").is_null());
+  const auto expected = faces_by_node(packed.scene), found = faces_by_node(scene_of(apart(opened)));
+  for (const auto& [name, corners] : expected) {
+    ASSERT_EQ(found.at(name).size(), corners.size()) << name;
+    if (name == "floor") continue;
+    // Of each ball the longest side, which a 1024th may change.
+    const auto side = [](const Corners& of) {
+      Box3f box;
+      for (const auto& face : of)
+        for (const Vec3f& p : face) box.extend(p);
+      return max_component(box.size());
+    };
+    EXPECT_NEAR(side(found.at(name)) / side(corners), 1, 2e-3) << name;
+  }
+}
+
+TEST(Parts, OfFarTextureCoordinatesStayByThemselves) {
+  Building building(60);
+  Mesh far = box({{1, 1, 1}});
+  for (size_t v = 0; v < far.positions.size(); v++) far.texcoords[0].push_back({{1e5f * static_cast<float>(v), 0}});
+  Json primitive = building.builder().primitive(far);
+  building.root(building.node(
+      {{"name", "far"}, {"mesh", building.builder().add("meshes", {{"primitives", Json::array({primitive})}})}}));
+  const Packed packed = pack(building.finish());
+  EXPECT_FALSE(named(open(packed.file).json(), "nodes", "far").is_null());
+}
+
+// A reader refuses what inflates to very much more than its bytes.
+TEST(Parts, OfWordsThatRepeatThemselvesAreReadAgain) {
+  Document source = Building(60).finish();
+  for (Json& node : source.json["nodes"]) node["extras"] = std::string(100'000, 'x');
+  const Packed packed = pack(source);
+  EXPECT_TRUE(verify_pack(open(packed.file)).errors.empty());
+  EXPECT_EQ(named(apart(open(packed.file)).json, "nodes", "box 7")["extras"], std::string(100'000, 'x'));
+}
+
+TEST(Parts, StayWhereAnimationsNameThemByTheirPlace) {
+  Document source = Building(60).finish();
+  source.json["animations"] = Json::parse(R"([{"samplers": [], "channels": [{"sampler": 0, "target": {"path": "pointer",
+      "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/7/translation"}}}}]}])");
+  EXPECT_FALSE(open(pack(source).file).parts());
+}
+
 // Exporters make a material for each part.
 TEST(Parts, OfMaterialsThatDifferInTheirNamesAreMerged) {
   Document source = Building(300).finish();

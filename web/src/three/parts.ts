@@ -56,6 +56,7 @@ export class Parts {
     for (const reader = stream.getReader(); ; ) {
       const { value, done } = await reader.read();
       if (done) break;
+      if (length + value.length > inflated) return console.warn('Lightwell: what tells of the parts is larger than the pack states');
       bytes.set(value, length);
       length += value.length;
     }
