@@ -18,7 +18,7 @@ Result<PartsParameters> PartsParameters::read(Bytes bytes) {
   parameters.bytes = reader.u32();
   parameters.inflated = reader.u32();
   if (!reader.ok() || reader.remaining() > 0) return fail("parameters", "wrong length");
-  if (!parameters.possible()) return fail("parameters", "no size of a gzip file");
+  if (!parameters.possible()) return fail("parameters", "promise more bytes than the stream has");
   return parameters;
 }
 
