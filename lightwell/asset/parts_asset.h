@@ -8,8 +8,8 @@ namespace lightwell {
 /// The codec number of this header's format: a gzip file (RFC 1952) of JSON.
 inline constexpr uint8_t parts_codec_gzip = 0;
 
-/// A file may inflate to so much whatever its size, and to so many times its size beyond that: JSON takes sixteen times the
-/// memory of its text.
+/// A file may inflate to so much whatever its size, and to so many times its size beyond that: JSON takes sixteen times
+/// the memory of its text.
 constexpr uint64_t parts_free_inflation = 1 << 20, parts_most_inflation = 16;
 
 /// The parameters of a stream of parts (docs/format.md).

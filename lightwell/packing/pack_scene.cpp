@@ -204,9 +204,10 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   content.light = std::move(encoded_light);
   PackLight stated = light;
   std::set<std::string> lost;
+  // Before materials go with the parts.
+  if (scene.document.json.contains("materials")) use_known_texcoords(scene.document.json["materials"]);
   content.parts = merge_parts(scene, stated.lamps, lost);
   name_scene(scene.document.json, scene.name);
-  if (scene.document.json.contains("materials")) use_known_texcoords(scene.document.json["materials"]);
   content.environment = add_environment(scene, scene.document);
   content.images = shrink_images(scene, scene.document);
   LW_TRY(meshes, encode_meshes(scene, content.parts, opening_budget(scene, stated, content), options, progress));
