@@ -197,6 +197,15 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
   return {};
 }
 
+/// What lets a grid that ended as its stream was full, well short of its target, come nearer to that.
+void advise_budget(const LightBakeOptions& light, const LightBakeStatistics& statistics, ConsoleProgress& progress) {
+  constexpr float well = 1.5f;  // estimates themselves err by so much (docs/decisions/036)
+  if (statistics.refinement != Refinement::to_budget || statistics.estimated_error < well * light.target_error) return;
+  progress.note("the light fills its " + size_text(light.most_bytes) + " at an estimated error of " +
+                short_number(100 * statistics.estimated_error) + " %, not " + short_number(100 * light.target_error) +
+                " %: a larger --budget lets it be finer");
+}
+
 Result<void> run(const Options& options, ConsoleProgress& progress, Bake& bake) {
   LW_CHECK(check_options(options));
   LW_CHECK(check_output(options.output, {options.scene.path, options.scene.environment}));
@@ -216,6 +225,7 @@ Result<void> run(const Options& options, ConsoleProgress& progress, Bake& bake) 
   LW_CHECK(write_file(options.output, bake.file));
   close_journal(options, bake);
   bake.write_seconds = watch.lap();
+  advise_budget(light_options(options, bake), bake.light_statistics, progress);
   return {};
 }
 

@@ -74,8 +74,6 @@ bool ConsoleProgress::cancelled() const { return interrupted != 0; }
 void ConsoleProgress::stage(std::string_view name, double total, std::string_view unit) {
   finish();
   const std::lock_guard lock(mutex_);
-  if (enabled_ && !note_.empty()) std::fprintf(stderr, "%s\n", note_.c_str());
-  note_.clear();
   name_ = name;
   unit_ = unit;
   total_ = total;
@@ -125,6 +123,8 @@ void ConsoleProgress::finish() {
     std::fprintf(stderr, ", %s %s/s", scaled_number(total_ / seconds).c_str(), unit_.c_str());
   std::fputc('\n', stderr);
   name_.clear();
+  if (!note_.empty()) std::fprintf(stderr, "%s\n", note_.c_str());
+  note_.clear();
 }
 
 uint64_t peak_memory() {

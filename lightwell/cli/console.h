@@ -37,7 +37,7 @@ class ConsoleProgress : public Progress {
   void stage(std::string_view name, double total, std::string_view unit) override;
   void advance(double done) override;
   bool cancelled() const override;
-  /// A line of its own between this stage and the next. Not printed after a failure, of which only the error is shown.
+  /// A line of its own after this stage's. Not printed after a failure, of which only the error is shown.
   void note(const std::string& line) { note_ = line; }
   /// Ends the last stage and prints its time. Not called after a failure, of which only the error is shown.
   void finish();

@@ -9,7 +9,7 @@
 namespace lightwell {
 namespace {
 
-constexpr const char* no_pack = "is a glTF, but not a pack; `lightwell bake` makes one";
+constexpr const char* no_pack = "is no pack; `lightwell bake` makes one";
 
 }  // namespace
 
@@ -18,7 +18,9 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
   size.needed = glb_header_bytes + chunk_header_bytes;
   ByteReader header(prefix);
   const uint32_t magic = header.u32();
-  if (header.ok() && magic != glb_magic) return fail("", "is no pack: it does not begin as a binary glTF does");
+  // Many a server answers with a page, and with the status 200, where it has no file.
+  if (header.ok() && magic != glb_magic)
+    return fail("", prefix[0] == '<' ? "is HTML or XML instead of a pack" : no_pack);
   if (prefix.size() < size.needed) return size;
   if (const uint32_t version = header.u32(); version != 2)
     return fail(ErrorKind::unsupported, "header", "is of glTF version " + std::to_string(version));

@@ -164,19 +164,21 @@ TEST_F(Commands, AFullDeviceIsAnError) {
 TEST_F(Commands, WhatIsNoPackIsCalledSo) {
   const std::string pack = read(small_pack());
   write("junk", "hello");
+  write("page.html", "<!doctype html>");
   write("empty", "");
   write("cut.glb", pack.substr(0, pack.size() / 2));
   ASSERT_EQ(run("scenes furnace -o " + path("plain.glb")).status, 0);
   fs::create_directories(path("folder"));
   const std::string to_export = "export -o " + path("x.glb");
   for (const std::string& command : std::vector<std::string>{"info", "verify", "fetch", "serve --port 0", to_export}) {
-    for (const auto& [file, said] : std::vector<std::pair<std::string, std::string>>{
-             {"junk", "is no pack"},
-             {"plain.glb", "is a glTF, but not a pack; `lightwell bake` makes one"},
-             {"folder", "is a folder"},
-             {"empty", "empty"},
-             {"cut.glb", command == "fetch" ? "should have" : "cut short"},
-             {"missing", "o such file"}}) {
+    for (const auto& [file, said] :
+         std::vector<std::pair<std::string, std::string>>{{"junk", "is no pack; `lightwell bake` makes one"},
+                                                          {"page.html", "is HTML or XML instead of a pack"},
+                                                          {"plain.glb", "is no pack; `lightwell bake` makes one"},
+                                                          {"folder", "is a folder"},
+                                                          {"empty", "empty"},
+                                                          {"cut.glb", command == "fetch" ? "should have" : "cut short"},
+                                                          {"missing", "o such file"}}) {
       if (command == "serve --port 0" && file == "folder") continue;  // it serves folders
       const Outcome outcome = run(command + " " + path(file));
       EXPECT_EQ(outcome.status, 1) << command << " " << file;

@@ -35,7 +35,7 @@ function assertOneLine(errors) {
 
 test('a file that is no pack', async (t) => {
   const { page, errors } = await openPack(t, { bytes: 'A letter, not a scene.'.repeat(100) });
-  await notice(page, '^This scene cannot be shown.*broken.lw.glb: is no pack: it does not begin as a binary glTF does');
+  await notice(page, '^This scene cannot be shown.*broken.lw.glb: is no pack; `lightwell bake` makes one');
   assert.equal(await page.evaluate(() => document.querySelector('lightwell-view').loaded), false);
   assertOneLine(errors);
 });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The page's tiles of packs: pictures of those that this browser has shown.
+// The page's tiles of packs: pictures of those that were shown, and of the others as they begin.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
@@ -38,28 +38,49 @@ const hasPictures = (page, wanted) =>
     wanted.join(),
   );
 
-test('a pack that was shown has its picture, another one a plain tile', async (t) => {
+/** How an image varies within itself, and how many bytes it has. */
+const variety = (image) =>
+  image.evaluate(async (element) => {
+    await element.decode();
+    const picture = Object.assign(document.createElement('canvas'), { width: 30, height: 20 }).getContext('2d');
+    picture.drawImage(element, 0, 0, 30, 20);
+    const green = [...picture.getImageData(0, 0, 30, 20).data].filter((_, i) => i % 4 === 1);
+    return { bytes: element.src.length, range: Math.max(...green) - Math.min(...green) };
+  });
+
+const SAVES_DATA = `Object.defineProperty(navigator, 'connection', { value: { saveData: true } });`;
+const KEEPS_NOTHING = `Object.defineProperty(globalThis, 'localStorage', { get() { throw new DOMException('no', 'SecurityError'); } });`;
+
+test('a tile for each pack, with its picture, though it was not shown yet', async (t) => {
   const { page, errors } = await openPacks(t, packs);
-  await hasPictures(page, [true, false, false]);
+  await hasPictures(page, [true, true, true]);
+  for (const image of await page.locator('#tiles img').all()) {
+    const { bytes, range } = await variety(image);
+    assert.ok(bytes < MOST, `${bytes} bytes`);
+    assert.ok(range > VARIED, `the picture is blank: ${range}`);
+  }
+  assert.equal(await page.locator('#tiles lightwell-view').count(), 0);
   await page.locator('#tiles').getByText('lucy').click();
-  await hasPictures(page, [true, true, false]);
   assert.equal(await page.locator('#tiles [aria-current=true]').textContent(), 'lucy');
   assert.equal(await page.locator('#packs').inputValue(), 'lucy');
   assert.match(page.url(), /#pack=lucy/);
-  const { bytes, range } = await page.locator('#tiles img').first().evaluate(async (image) => {
-    await image.decode();
-    const picture = Object.assign(document.createElement('canvas'), { width: 30, height: 20 }).getContext('2d');
-    picture.drawImage(image, 0, 0, 30, 20);
-    const green = [...picture.getImageData(0, 0, 30, 20).data].filter((_, i) => i % 4 === 1);
-    return { bytes: image.src.length, range: Math.max(...green) - Math.min(...green) };
-  });
-  assert.ok(bytes < MOST, `${bytes} bytes`);
-  assert.ok(range > VARIED, `the picture is blank: ${range}`);
   assert.deepEqual(errors, []);
 });
 
+test('a pack that is not there has a plain tile, and those behind it their pictures', async (t) => {
+  const { page } = await openPacks(t, [packs[0], { name: 'gone.lw.glb', url: 'packs/gone.lw.glb' }, packs[1]]);
+  await hasPictures(page, [true, false, true]);
+});
+
+test('a visitor who saves data fetches what he looks at', async (t) => {
+  const { page } = await openPacks(t, packs, { init: SAVES_DATA });
+  await hasPictures(page, [true, false, false]);
+  await page.locator('#tiles').getByText('lucy').click();
+  await hasPictures(page, [true, true, false]);
+});
+
 test('pictures are there when the page is opened again', async (t) => {
-  const { page } = await openPacks(t, packs);
+  const { page } = await openPacks(t, packs, { init: SAVES_DATA });
   await hasPictures(page, [true, false, false]);
   // An address that is changed by hand is loaded anew.
   await page.evaluate(() => void (location.hash = '#pack=new'));
@@ -68,13 +89,9 @@ test('pictures are there when the page is opened again', async (t) => {
   await hasPictures(page, [true, false, true]);
 });
 
-test('where the browser keeps nothing, tiles are plain', async (t) => {
-  const init = `Object.defineProperty(globalThis, 'localStorage', { get() { throw new DOMException('no', 'SecurityError'); } });`;
-  const { page, errors } = await openPacks(t, packs, { init });
-  await page.locator('#tiles').waitFor();
-  await page.locator('#tiles').getByText('lucy').click();
-  await complete(page);
-  assert.deepEqual(await pictures(page), [false, false, false]);
+test('where the browser keeps nothing, tiles have pictures for as long as the page is open', async (t) => {
+  const { page, errors } = await openPacks(t, packs, { init: KEEPS_NOTHING });
+  await hasPictures(page, [true, true, true]);
   assert.deepEqual(errors, []);
 });
 

@@ -19,13 +19,15 @@ async function toggle(t, renderer) {
   await page.goto(server.url);
   await complete(page);
   const surfaces = await page.evaluate(() => document.querySelector('lightwell-view').toDataURL());
-  const steps = await page.evaluate(() => {
+  const steps = await page.evaluate(async () => {
     const view = document.querySelector('lightwell-view');
-    return [true, false, true].map((wireframe) => {
+    const steps = [];
+    for (const wireframe of [true, false, true]) {
       globalThis.glRecord.reset();
-      view.toggleAttribute('wireframe', wireframe);
-      return { picture: view.toDataURL(), allocations: globalThis.glRecord.allocations };
-    });
+      await view.pack.setWireframe(wireframe);
+      steps.push({ picture: view.toDataURL(), allocations: globalThis.glRecord.allocations });
+    }
+    return steps;
   });
   assert.deepEqual(errors, []);
   assert.notEqual(steps[0].picture, surfaces);

@@ -43,7 +43,8 @@ async function openElement(t, body, slowly = false) {
 const text = (page, pattern) => page.getByText(new RegExp(pattern)).filter({ visible: true });
 
 for (const [what, src, message] of [
-  ['an unbaked GLB', 'unbaked.glb', 'unbaked\\.glb: is a glTF, but not a pack; `lightwell bake` makes one'],
+  ['an unbaked GLB', 'unbaked.glb', 'unbaked\\.glb: is no pack; `lightwell bake` makes one'],
+  ['a page in its place', './', '/: is HTML or XML instead of a pack'],
   ['a file that is not there', 'none.glb', 'none\\.glb: the server answers 404'],
 ])
   test(`${what} is said in the box and in one line of the console`, async (t) => {

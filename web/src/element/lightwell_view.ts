@@ -364,7 +364,7 @@ export class LightwellView extends Base implements ContextHolder {
       case 'strategy':
         return this.#pack?.setStrategy(parseWord(value, STRATEGIES));
       case 'wireframe':
-        return this.#pack?.setWireframe(value !== null);
+        return void this.#pack?.setWireframe(value !== null);
       case 'aria-label':
         stage.canvas.setAttribute('role', 'img');
         return stage.canvas.setAttribute('aria-label', value ?? DEFAULT_LABEL);

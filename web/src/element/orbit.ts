@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Camera, type PerspectiveCamera, Sphere, Spherical, Vector3 } from 'three';
+import { type Box3, type Camera, type PerspectiveCamera, Sphere, Spherical, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { LightwellScene } from '../three/scene.js';
 
@@ -8,6 +8,8 @@ const STEP = 20;
 const ZOOM = 0.95;
 /** Of a glide so much is left after a second. */
 const GLIDE = 0.05;
+/** Around what is shown whole. */
+const MARGIN = 1.1;
 /** The first frame of a movement: the one before it was drawn long ago. Seconds. */
 const FIRST_FRAME = 1 / 60;
 
@@ -133,11 +135,23 @@ export class Orbit {
     this.#controls.minDistance = sphere.radius / 100;
     if (camera === undefined) this.#frameWhole(sphere, fieldOfView);
     else this.lookThrough(camera, pack);
+    if (camera?.name === 'overview') this.#approach(pack.focus);
     this.save();
   }
 
+  /** An overview fits a square: where a narrow canvas shows more up and down, comes as near as what it looks at allows from outside. */
+  #approach(box: Box3): void {
+    const { aspect, matrixWorldInverse, position, projectionMatrix } = this.#camera;
+    if (aspect >= 1 || box.containsPoint(position)) return;
+    this.#camera.updateMatrixWorld();
+    const { min, max } = box.clone().applyMatrix4(matrixWorldInverse);
+    const [slopeX, , , , , slopeY] = projectionMatrix.elements;
+    const nearer = -max.z - MARGIN * Math.max(slopeX! * max.x, slopeX! * -min.x, slopeY! * max.y, slopeY! * -min.y);
+    this.view = { ...this.view, radius: this.view.radius - nearer };
+  }
+
   #frameWhole({ center, radius }: Sphere, fieldOfView: number): void {
-    const distance = (1.1 * radius) / Math.sin((fieldOfView * Math.PI) / 360);
+    const distance = (MARGIN * radius) / Math.sin((fieldOfView * Math.PI) / 360);
     this.view = { theta: Math.PI / 6, phi: (75 * Math.PI) / 180, radius: distance, target: center.toArray() };
   }
 

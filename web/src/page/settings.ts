@@ -10,7 +10,7 @@ import { bindSharing } from './sharing.js';
 
 const HOW_TO: Record<string, string> = {
   walk: 'W, A, S, D or arrow keys walk, with shift you run; a drag looks around.',
-  measure: 'Click two points; escape ends.',
+  measure: 'Click or tap two points.',
   'raking-light': 'Drag the lamp in the upper corner.',
   compare: 'Drag the line: to its left there is no bounced light.',
 };

@@ -6,14 +6,16 @@ const [WIDTH, HEIGHT] = [144, 96];
 const QUALITY = 0.7;
 const STYLE = `
 #tiles { display: flex; gap: 6px; margin: 0 -16px 10px; padding: 2px 16px; overflow-x: auto; scrollbar-width: thin; }
-#tiles button { flex: none; width: 76px; padding: 0 0 2px; overflow: hidden; font-size: 11px; text-overflow: ellipsis; white-space: nowrap; }
+#tiles button { position: relative; flex: none; width: 76px; padding: 0 0 2px; overflow: hidden; font-size: 11px; text-overflow: ellipsis; white-space: nowrap; }
 #tiles [aria-current='true'] { border-color: var(--light); }
+#tiles lightwell-view { position: absolute; inset: 0 auto auto 0; width: ${WIDTH}px; height: ${HEIGHT}px; min-height: 0; opacity: 0; }
 #tiles img, #tiles i { display: block; width: 100%; height: 49px; object-fit: cover; background: linear-gradient(135deg, var(--chosen), transparent); }
 `;
 
 /**
- * A tile for each pack of the list, with its picture from when it was shown last; this browser alone keeps those, by the packs' URLs. The
- * page fetches this script when its first pack of several is there: it imports nothing that the page has.
+ * A tile for each pack of the list, with its picture from when it was shown last, which this browser alone keeps, by the packs' URLs. Those
+ * that were never shown are looked at for a moment, once the first pack is complete. The page fetches this script when its first pack of
+ * several is there: it imports nothing that the page has.
  */
 export function bindTiles(view: LightwellView, select: HTMLSelectElement, packs: { url: string }[]): void {
   const sheet = new CSSStyleSheet();
@@ -22,7 +24,7 @@ export function bindTiles(view: LightwellView, select: HTMLSelectElement, packs:
   const keys = packs.map(({ url }) => `lightwell-tile ${new URL(url, location.href).href}`);
   const tiles = keys.map((key, index) => {
     const tile = Object.assign(document.createElement('button'), { title: select.options[index]!.text });
-    tile.append(pictureOf(key), tile.title);
+    tile.append(pictureOf(read(key)), tile.title);
     tile.addEventListener('click', () => {
       select.selectedIndex = index;
       select.dispatchEvent(new Event('change'));
@@ -33,10 +35,19 @@ export function bindTiles(view: LightwellView, select: HTMLSelectElement, packs:
   list.append(...tiles);
   document.querySelector('#panel > summary')!.after(list);
   const mark = () => tiles.forEach((tile, index) => tile.setAttribute('aria-current', String(index === select.selectedIndex)));
-  const keep = () => {
-    const { selectedIndex: index } = select;
-    store(keys[index]!, shrink(view));
-    tiles[index]!.firstElementChild!.replaceWith(pictureOf(keys[index]!));
+  const show = (index: number, picture: string) => {
+    store(keys[index]!, picture);
+    tiles[index]!.querySelector('img, i')!.replaceWith(pictureOf(picture));
+  };
+  let begun = false;
+  const keep = async () => {
+    show(select.selectedIndex, shrink(view));
+    if (begun || savesData()) return;
+    begun = true;
+    for (const [index, { url }] of packs.entries()) {
+      const picture = tiles[index]!.querySelector('img') === null && (await firstPicture(tiles[index]!, url));
+      if (picture) show(index, picture);
+    }
   };
   select.addEventListener('change', mark);
   view.on('load', mark);
@@ -45,10 +56,27 @@ export function bindTiles(view: LightwellView, select: HTMLSelectElement, packs:
   if (view.complete) keep();
 }
 
-/** What was kept, or a plain one. */
-function pictureOf(key: string): HTMLElement {
-  const kept = read(key);
-  return kept === null ? document.createElement('i') : Object.assign(new Image(), { src: kept, alt: '' });
+const savesData = () => (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
+
+/** A pack's first picture, from an element of its own within its tile, once that can be seen; none of one that cannot be shown. */
+async function firstPicture(tile: HTMLElement, url: string): Promise<string | null> {
+  const view = document.createElement('lightwell-view') as LightwellView;
+  view.inert = true;
+  view.setAttribute('loading', 'lazy');
+  view.setAttribute('src', url);
+  const picture = new Promise<string | null>((resolve) => {
+    view.on('load', () => resolve(shrink(view)));
+    view.on('error', () => resolve(null));
+  });
+  tile.prepend(view);
+  await picture;
+  view.remove();
+  return picture;
+}
+
+/** A plain one where there is no picture. */
+function pictureOf(picture: string | null): HTMLElement {
+  return picture === null ? document.createElement('i') : Object.assign(new Image(), { src: picture, alt: '' });
 }
 
 /** The middle of the present picture. */
@@ -66,7 +94,7 @@ function shrink(view: LightwellView): string {
   return small.toDataURL('image/jpeg', QUALITY);
 }
 
-/** A browser may keep nothing, or have no room: then tiles are plain. */
+/** A browser may keep nothing, or have no room. */
 function store(key: string, picture: string): void {
   try {
     localStorage.setItem(key, picture);

@@ -43,7 +43,6 @@ import type { Parts } from './parts.js';
 import { TextureRefinement } from './texture_refinement.js';
 import type { UploadBudget } from './upload_budget.js';
 import { viewWeights } from './view_weights.js';
-import { drawsEdges, showEdges } from './wireframe.js';
 
 export interface LightwellSceneEventMap extends Object3DEventMap {
   /** The picture has changed: where frames are drawn on demand, draw one. */
@@ -214,11 +213,17 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   /**
    * Shows the triangles' edges. A browser with WEBGL_polygon_mode does so at once and without further memory. In another the
-   * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face.
+   * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face. Resolves when they are shown.
    */
-  setWireframe(wireframe: boolean): void {
+  async setWireframe(wireframe: boolean): Promise<void> {
+    if (wireframe === this.#wireframe) return;
     this.#wireframe = wireframe;
-    if (this.#complete || drawsEdges(this.#renderer)) showEdges(this.opening.gltf.scene, this.#renderer, wireframe);
+    await this.#showEdges();
+  }
+
+  async #showEdges(): Promise<void> {
+    const { showEdges } = await import('./wireframe.js');
+    showEdges(this.opening.gltf.scene, this.#renderer, this.#wireframe, this.#complete);
     this.#changed();
   }
 
@@ -394,7 +399,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   #onComplete(): void {
     this.#complete = true;
-    this.setWireframe(this.#wireframe);
+    if (this.#wireframe) this.#showEdges();
     this.dispatchEvent({ type: 'complete' });
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Material, Mesh, Object3D, WebGLRenderer } from 'three';
-import { materialsOf, meshesIn } from './meshes.js';
 
 /** What this code uses of https://registry.khronos.org/webgl/extensions/WEBGL_polygon_mode/ */
 interface PolygonMode {
@@ -9,20 +8,19 @@ interface PolygonMode {
   FILL_WEBGL: number;
 }
 
-/** Whether the GPU draws the edges of triangles by itself: then outlines cost no memory, and follow what streams in. */
-export function drawsEdges(renderer: WebGLRenderer): boolean {
-  return renderer.extensions.has('WEBGL_polygon_mode');
-}
-
 /**
- * Draws all meshes as their edges, or as surfaces again. Where the GPU cannot, three.js makes a buffer of lines for each state of
- * a mesh that is drawn so.
+ * Draws all meshes as their edges, or as surfaces again. Where the GPU draws the edges of triangles by itself, outlines cost no memory and
+ * follow what streams in. Elsewhere three.js makes a buffer of lines for each state of a mesh that is drawn so: they wait until all is
+ * `complete`. A script of its own, which imports nothing that the page has.
  */
-export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: boolean): void {
-  for (const mesh of meshesIn(root)) {
-    if (drawsEdges(renderer)) setEdges(mesh, renderer, wireframe);
-    else for (const material of materialsOf(mesh) as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
-  }
+export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: boolean, complete: boolean): void {
+  const drawsEdges = renderer.extensions.has('WEBGL_polygon_mode');
+  root.traverse((object) => {
+    const mesh = object as Mesh;
+    if (!mesh.isMesh) return;
+    if (drawsEdges) setEdges(mesh, renderer, wireframe);
+    else if (complete) for (const material of [mesh.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
+  });
 }
 
 function setEdges(mesh: Mesh, renderer: WebGLRenderer, wireframe: boolean): void {
