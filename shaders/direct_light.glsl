@@ -4,13 +4,13 @@
 // no intensity, known by its decay, whose map is a table of all lamps with the share of each that reaches every pixel
 // (docs/decisions/033-direct-light-on-the-page.md). A material calls getLamp for each of them and adds it by its own RE_Direct.
 //
-// Texels of the map, row 0: number of lamps, whether there are shares, their width and height; the viewport: x, y, width, height; then
-// five a lamp, in the camera's space:
+// Texels of the map, row 0: number of lamps, whether there are shares, their width and height; the viewport: x, y, width, height; of a
+// sky three matrices, one a colour, for the irradiance of a surface with the normal n: n M n; then five a lamp, all in the camera's space:
 //   position (of a sun: where its light comes from), kind
 //   colour: radiance, or intensity; range, 0 without end
 //   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
 //   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
-//   normal; number of its share
+//   normal; number of its share, of a sky that of red, before those of green and blue
 // Above row 0 the shares, one for every pixel of the viewport or for a few: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
 // beyond six beside it, again and again.
 
@@ -22,6 +22,7 @@
 #define LAMP_POINT 2
 #define LAMP_SPOT 3
 #define LAMP_SUN 4
+#define LAMP_SKY 5
 
 struct Lamp {
 	vec3 position;
@@ -39,7 +40,7 @@ struct Lamp {
 Lamp readLamp( sampler2D map, int i ) {
 
 	vec4 texels[ 5 ];
-	for ( int k = 0; k < 5; k ++ ) texels[ k ] = texelFetch( map, ivec2( 2 + 5 * i + k, 0 ), 0 );
+	for ( int k = 0; k < 5; k ++ ) texels[ k ] = texelFetch( map, ivec2( 14 + 5 * i + k, 0 ), 0 );
 	int kind = int( texels[ 0 ].w ), share = int( texels[ 4 ].w );
 	return Lamp( texels[ 0 ].xyz, kind, texels[ 1 ].rgb, texels[ 1 ].w, texels[ 2 ].xyz, texels[ 2 ].w, texels[ 3 ].xyz, texels[ 3 ].w, texels[ 4 ].xyz, share );
 
@@ -65,6 +66,26 @@ ivec2 getPlaceOfShares( sampler2D map, float distance ) {
 
 	}
 	return best;
+
+}
+
+// What the sky gives a fragment, as a lamp: how much of it reaches the fragment, the irradiance, and what comes from where it mirrors.
+struct SkyLight {
+	bool lit;
+	vec3 share;
+	vec3 irradiance;
+	vec3 mirrored;
+};
+
+SkyLight skyLight = SkyLight( false, vec3( 1.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+
+// The irradiance of the sky where nothing hides it.
+vec3 getSkyIrradiance( sampler2D map, vec3 normal ) {
+
+	vec4 n = vec4( normal, 1.0 );
+	vec3 irradiance = vec3( 0.0 );
+	for ( int i = 0; i < 12; i ++ ) irradiance[ i / 4 ] += n[ i % 4 ] * dot( texelFetch( map, ivec2( 2 + i, 0 ), 0 ), n );
+	return max( irradiance, vec3( 0.0 ) );
 
 }
 

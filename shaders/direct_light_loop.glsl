@@ -11,6 +11,18 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 	for ( int k = 0; k < int( head.x ); k ++ ) {
 
 		Lamp lamp = readLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], k );
+		if ( lamp.kind == LAMP_SKY ) {
+
+			vec3 share;
+			for ( int c = 0; c < 3; c ++ ) share[ c ] = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
+			vec3 mirrored = reflect( - geometryViewDir, geometryNormal );
+			skyLight.lit = true;
+			skyLight.share = share;
+			skyLight.irradiance = share * lamp.color * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], geometryNormal );
+			skyLight.mirrored = share * lamp.color * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], mirrored ) * RECIPROCAL_PI;
+			continue;
+
+		}
 		float reach = getLamp( lamp, geometryPosition, geometryNormal, directLight );
 		if ( shadowed ) directLight.color *= getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share );
 		#ifdef STANDARD

@@ -10,6 +10,7 @@ uniform sampler2D surfaces;     // octahedral geometric normal, distance along t
 uniform sampler2D sums;         // so far
 uniform sampler2D depths;       // of the map: 3 x 2 faces of a cube, or one picture for a sun
 uniform bool first;             // whether the sums begin here
+uniform float strength;         // of this sample beside the others
 uniform mat4 projection;
 uniform mat3 axes;              // rows: the map's axes in the camera's space, the last one to its front
 uniform vec3 point;             // of the lamp, in the camera's space; of a sun the middle of the map
@@ -145,7 +146,7 @@ void main() {
 		weight /= squared;
 	#endif
 	// A trifle where the point is below the horizon: pixels to which that happens for all points are dark.
-	weight *= max( cosine, 1e-4 );
+	weight *= strength * max( cosine, 1e-4 );
 	float lit = cosine > 0.0 && weight > 0.0 ? lookUp( receiverOf( way, n ) ) : 0.0;
 	result = vec4( before + weight * vec2( 1.0, lit ), 0.0, 0.0 );
 

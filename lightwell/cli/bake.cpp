@@ -335,7 +335,7 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
              "Of --grid auto: about so many seconds the light may take; what there is then, is written");
   command->add_flag("--preview", options->preview, "A first light in seconds: fewer rays, and --stop-after 2");
   command->add_flag("--sky-apart", options->sky_apart,
-                    "Keep the sky's own light in a grid apart from what surfaces reflect");
+                    "Keep the sky's own light in a grid apart from what surfaces reflect: the page then refines its shadows");
   command->add_flag("--resume", options->resume,
                     "Keep the light of each node in PACK.journal, and go on with what an interrupted run left there");
   command->footer(

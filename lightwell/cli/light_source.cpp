@@ -31,6 +31,17 @@ Result<void> check_environment(const OpenedScene& scene) {
       "", "its light was baked without an environment: bake the scene with one, or leave --environment and --sky out");
 }
 
+void leave_sky_to_rays(const World& world, LightField& field, LuminaireSet& held) {
+  const int sky = world.lights().environment_luminaire();
+  std::vector<LightField::Layer> layers = field.layers();
+  const auto is_sky_alone = [](const LightField::Layer& layer) {
+    return layer.contents.environment && !layer.contents.indirect;
+  };
+  if (sky < 0 || std::erase_if(layers, is_sky_alone) == 0) return;
+  held.erase(sky);
+  field = LightField(std::move(layers));
+}
+
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,
                             const LuminaireSet& contained, std::span<const LightGroup> groups, Progress& progress,
                             const LightLevel& level) {

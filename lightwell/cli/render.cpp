@@ -94,8 +94,9 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   if (needs_field) {
     // After the exposure was chosen: what is dimmed is to look darker.
     field = dimmed(field, options.factors);
-    render_options.light.field = &field;
     render_options.light.held = held;
+    leave_sky_to_rays(*world, field, render_options.light.held);
+    render_options.light.field = &field;
   }
   if (is_for_the_eye(options.output)) render_options.display = display;
   figures.prepare_seconds = watch.lap();

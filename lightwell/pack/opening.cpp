@@ -19,8 +19,7 @@ Result<OpeningSize> measure_opening(Bytes prefix) {
   ByteReader header(prefix);
   const uint32_t magic = header.u32();
   // Many a server answers with a page, and with the status 200, where it has no file.
-  if (header.ok() && magic != glb_magic)
-    return fail("", prefix[0] == '<' ? "is HTML or XML instead of a pack" : no_pack);
+  if (header.ok() && magic != glb_magic) return fail("", prefix[0] == '<' ? "is HTML or XML" : no_pack);
   if (prefix.size() < size.needed) return size;
   if (const uint32_t version = header.u32(); version != 2)
     return fail(ErrorKind::unsupported, "header", "is of glTF version " + std::to_string(version));

@@ -173,7 +173,7 @@ TEST_F(Commands, WhatIsNoPackIsCalledSo) {
   for (const std::string& command : std::vector<std::string>{"info", "verify", "fetch", "serve --port 0", to_export}) {
     for (const auto& [file, said] :
          std::vector<std::pair<std::string, std::string>>{{"junk", "is no pack; `lightwell bake` makes one"},
-                                                          {"page.html", "is HTML or XML instead of a pack"},
+                                                          {"page.html", "is HTML or XML"},
                                                           {"plain.glb", "is no pack; `lightwell bake` makes one"},
                                                           {"folder", "is a folder"},
                                                           {"empty", "empty"},

@@ -44,7 +44,7 @@ const text = (page, pattern) => page.getByText(new RegExp(pattern)).filter({ vis
 
 for (const [what, src, message] of [
   ['an unbaked GLB', 'unbaked.glb', 'unbaked\\.glb: is no pack; `lightwell bake` makes one'],
-  ['a page in its place', './', '/: is HTML or XML instead of a pack'],
+  ['a page in its place', './', '/: is HTML or XML'],
   ['a file that is not there', 'none.glb', 'none\\.glb: the server answers 404'],
 ])
   test(`${what} is said in the box and in one line of the console`, async (t) => {

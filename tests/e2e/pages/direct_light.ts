@@ -39,8 +39,9 @@ interface Lit {
 
 function light(definitions: LampDefinition[], objects: Object3D[]): Lit {
   const opening = { gltf: { scene: new Group() }, meshesOf: () => [] } as unknown as Opening;
+  opening.gltf.scene.userData['lightwell'] = { skyRadiance: [1, 1, 1] };
   const changed = () => void lit.changes++;
-  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, changed };
+  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, environment: undefined, grids: [], changed };
   const direct = new DirectLight(DIRECT_KIT, definitions, surroundings);
   const lit: Lit = { direct, scene: new Scene().add(direct.hook, direct.carrier, ...direct.lamps, ...objects), changes: 0 };
   return lit;
@@ -87,6 +88,17 @@ export function irradiance(definition: LampDefinition, place: Triple, normal: Tr
   return measured!;
 }
 
+/** Lets so many samples of a row of pixels come. */
+async function settle(lit: Lit, camera: Camera, width: number, samples: number): Promise<void> {
+  const { direct, scene } = lit;
+  direct.setShadows('soft', ALL_TIME);
+  rowOf(scene, camera, width);
+  for (let seen = lit.changes; direct.samples < samples; seen = lit.changes) {
+    while (lit.changes === seen) await new Promise(requestAnimationFrame);
+    rowOf(scene, camera, width);
+  }
+}
+
 /** A lamp above, a half-plane at y = 1 over x < 0, and the floor: what of the lamp reaches each pixel of a row from -half to half. */
 export async function penumbra(definition: LampDefinition, half: number, samples: number): Promise<{ shares: number[]; changes: number }> {
   const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
@@ -96,15 +108,22 @@ export async function penumbra(definition: LampDefinition, half: number, samples
   rowOf(lit.scene, camera, width);
   lit.direct.setShadows('off');
   const whole = rowOf(lit.scene, camera, width);
-  lit.direct.setShadows('soft', ALL_TIME);
-  rowOf(lit.scene, camera, width);
-  for (let seen = lit.changes; lit.direct.samples < samples; seen = lit.changes) {
-    while (lit.changes === seen) await new Promise(requestAnimationFrame);
-    rowOf(lit.scene, camera, width);
-  }
+  await settle(lit, camera, width, samples);
   const shares = rowOf(lit.scene, camera, width).map((value, i) => value / whole[i]!);
   lit.direct.dispose();
   return { shares, changes: lit.changes };
+}
+
+/** A sky of radiance 1 over a floor with a wall along z, 1 high: the irradiance of each pixel of a row from the wall on, `far` long. */
+export async function skyBesideWall(far: number, samples: number): Promise<number[]> {
+  const lit = light([{ kind: 'sky', radiance: [1, 1, 1] }], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])]);
+  const camera = rowCamera(far / 2);
+  camera.position.x = far / 2;
+  const width = 64;
+  await settle(lit, camera, width, samples);
+  const row = rowOf(lit.scene, camera, width);
+  lit.direct.dispose();
+  return row;
 }
 
 /** The floor seen from above, when its front looks down. */
@@ -146,4 +165,4 @@ export function ownObject(definition: LampDefinition): number[] {
   return values;
 }
 
-Object.assign(globalThis, { scaled, ownObject, irradiance, penumbra, fromBehind });
+Object.assign(globalThis, { skyBesideWall, scaled, ownObject, irradiance, penumbra, fromBehind });

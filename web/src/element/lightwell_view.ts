@@ -331,7 +331,7 @@ export class LightwellView extends Base implements ContextHolder {
   #frame(pack: LightwellScene): void {
     const camera = pack.opening.gltf.cameras[0];
     if (!this.hasAttribute('field-of-view')) this.#stage!.takeFieldOfView(camera);
-    this.#orbit!.frame(pack, camera, this.#stage!.fieldOfView);
+    this.#orbit!.frame(pack, camera);
     this.#apply('camera-orbit');
     const view = this.#wantedView ?? this.#keptView;
     if (view !== null) this.#orbit!.view = view;

@@ -127,32 +127,28 @@ export class Orbit {
   }
 
   /** Shows a pack from where its file's camera stands or, where there is none, all of it: `reset` returns there. */
-  frame(pack: LightwellScene, camera: Camera | undefined, fieldOfView: number): void {
-    const sphere = sphereOf(pack);
-    this.#size = sphere.radius;
-    this.#camera.far = Math.max(sphere.radius * 50, pack.bounds.getBoundingSphere(new Sphere()).radius * 4);
-    this.#controls.maxDistance = sphere.radius * 20;
-    this.#controls.minDistance = sphere.radius / 100;
-    if (camera === undefined) this.#frameWhole(sphere, fieldOfView);
-    else this.lookThrough(camera, pack);
-    if (camera?.name === 'overview') this.#approach(pack.focus);
+  frame(pack: LightwellScene, camera: Camera | undefined): void {
+    const { center, radius } = sphereOf(pack);
+    this.#size = radius;
+    this.#camera.far = Math.max(radius * 50, pack.bounds.getBoundingSphere(new Sphere()).radius * 4);
+    this.#controls.maxDistance = radius * 20;
+    this.#controls.minDistance = radius / 100;
+    if (camera) this.lookThrough(camera, pack);
+    else this.view = { theta: Math.PI / 6, phi: (75 * Math.PI) / 180, radius: 3 * radius, target: center.toArray() };
+    // An overview fits a square: a narrow canvas shows more up and down.
+    if (!camera || (camera.name === 'overview' && this.#camera.aspect < 1)) this.#approach(pack.focus);
     this.save();
   }
 
-  /** An overview fits a square: where a narrow canvas shows more up and down, comes as near as what it looks at allows from outside. */
+  /** Shows all of a box whose middle is looked at, from as near as can be, unless it is seen from inside. */
   #approach(box: Box3): void {
-    const { aspect, matrixWorldInverse, position, projectionMatrix } = this.#camera;
-    if (aspect >= 1 || box.containsPoint(position)) return;
+    const { matrixWorldInverse, position, projectionMatrix } = this.#camera;
+    if (box.containsPoint(position)) return;
     this.#camera.updateMatrixWorld();
-    const { min, max } = box.clone().applyMatrix4(matrixWorldInverse);
+    const { max } = box.clone().applyMatrix4(matrixWorldInverse);
     const [slopeX, , , , , slopeY] = projectionMatrix.elements;
-    const nearer = -max.z - MARGIN * Math.max(slopeX! * max.x, slopeX! * -min.x, slopeY! * max.y, slopeY! * -min.y);
+    const nearer = -max.z - MARGIN * Math.max(slopeX! * max.x, slopeY! * max.y);
     this.view = { ...this.view, radius: this.view.radius - nearer };
-  }
-
-  #frameWhole({ center, radius }: Sphere, fieldOfView: number): void {
-    const distance = (MARGIN * radius) / Math.sin((fieldOfView * Math.PI) / 360);
-    this.view = { theta: Math.PI / 6, phi: (75 * Math.PI) / 180, radius: distance, target: center.toArray() };
   }
 
   /** The target lies on the camera's axis, where that passes the middle of the pack. */

@@ -52,6 +52,8 @@ export interface LightGridDefinition {
   contains?: string[];
   /** Of the lamps whose light it holds. Absent: of all. */
   group?: string;
+  /** No pack's: of a grid that is made of others and shown in the place of one, that one. */
+  insteadOf?: LightGridDefinition;
   /** Streams of its finer cells, each of those in a box. */
   bricks?: { stream: number; min: Triple; max: Triple }[];
 }
@@ -59,7 +61,8 @@ export interface LightGridDefinition {
 export interface LampDefinition {
   /** That it is switched and dimmed with. */
   group?: string;
-  kind: 'rectangle' | 'sphere' | 'point' | 'spot' | 'sun';
+  /** `sky`, which no pack has: all that surrounds it, where its light is apart in the grids. */
+  kind: 'rectangle' | 'sphere' | 'point' | 'spot' | 'sun' | 'sky';
   center?: Triple;
   /** Where it shines. */
   normal?: Triple;

@@ -27,8 +27,10 @@ export type LightLookup = 'trilinear' | 'tricubic';
 export class LightwellLight extends Light {
   override readonly type = 'LightwellLight';
   readonly isLightProbeGrid = true;
-  /** The texels of lightwell/light/atlas.h that are shown; another one with every finer state. */
-  texture: Data3DTexture;
+  /** The texels of lightwell/light/atlas.h as they are newest; another one with every finer state. */
+  newest: Data3DTexture;
+  /** The grid whose texels are shown in the place of these, or this one. */
+  shown: LightwellLight = this;
   /** Not a box: `min` is the world position of the first node, `max` the vector part of the grid's rotation. */
   readonly boundingBox = new Box3();
   /** Not counts: the size of the grid in the world, z negated as the mark of Lightwell's grids. */
@@ -50,7 +52,12 @@ export class LightwellLight extends Light {
     this.priority = definition.priority ?? 0;
     this.#corner = new Matrix4().makeTranslation(...min);
     this.#size = new Vector3(...nodes).subScalar(1).multiply(new Vector3(...cell));
-    this.texture = atlasTexture(atlas, this);
+    this.newest = atlasTexture(atlas, this);
+  }
+
+  /** What three.js shows. */
+  get texture(): Data3DTexture {
+    return this.shown.newest;
   }
 
   override updateMatrixWorld(force?: boolean): void {
@@ -64,7 +71,7 @@ export class LightwellLight extends Light {
   }
 
   override dispose(): void {
-    this.texture.dispose();
+    this.newest.dispose();
   }
 }
 

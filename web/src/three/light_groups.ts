@@ -50,20 +50,26 @@ export class LightGroups {
     return this.#factors.has(SKY);
   }
 
-  /** The grids that are looked up, and their states. */
+  /** The grids that are looked up; behind those, of each that has the sky's own light apart, one without it. */
   get definitions(): LightGridDefinition[] {
-    return this.#sums.map(({ definition }) => definition);
+    return [...this.#sums.map(({ definition }) => definition), ...this.#sums.flatMap((sum) => sum.withoutSky ?? [])];
   }
 
   states(): LightEvent[] {
-    return this.#sums.map((sum) => sum.state(this.#factors));
+    return [...this.#sums.map((sum) => sum.state(this.#factors)), ...this.#sums.flatMap((sum) => this.#withoutSky(sum))];
   }
 
-  /** A newer state of a group's grid; gives that of the grid that is looked up. */
-  receive(event: LightEvent): LightEvent {
+  /** A newer state of a group's grid; gives those of the grids that are looked up. */
+  receive(event: LightEvent): LightEvent[] {
     const sum = this.#sumOf.get(event.asset)!;
     sum.receive(event);
-    return sum.state(this.#factors);
+    return [sum.state(this.#factors), ...this.#withoutSky(sum)];
+  }
+
+  #withoutSky(sum: SummedGrid): LightEvent[] {
+    if (sum.withoutSky === null) return [];
+    const state = sum.state(new Map([...this.#factors, [SKY, [0, 0, 0]]]));
+    return [{ ...state, asset: sum.withoutSky.stream }];
   }
 
   /** The grids of all groups matter as much as the one that is looked up. */
@@ -79,14 +85,23 @@ export class LightGroups {
     const of = factorOf(name, factor);
     this.#factors.set(name, of);
     for (const lamp of lamps) if (lamp.userData.group === name) tint(lamp.color, this.#lampColors, lamp, of);
+    this.#tintSky(lamps);
     for (const definition of opening.extensions.LIGHTWELL_lamps?.lamps ?? [])
       if (definition.group === name) this.#tintSurface(definition, of, opening);
   }
 
   /** Sets the factor of the sky's own light. Throws when it is not apart. */
-  setSky(factor: number | Factor): void {
+  setSky(factor: number | Factor, lamps: Lamp[]): void {
     if (!this.skyIsApart) throw new Error("the sky's own light is not apart from the rest in this pack");
     this.#factors.set(SKY, factorOf('sky', factor));
+    this.#tintSky(lamps);
+  }
+
+  /** As a lamp the sky has the factors of its grid. */
+  #tintSky(lamps: Lamp[]): void {
+    const ofSky = this.#sums.flatMap(({ namesOfSky }) => namesOfSky).map((name) => this.#factors.get(name)!);
+    const of = product(ofSky);
+    for (const lamp of lamps) if (lamp.definition.kind === 'sky') tint(lamp.color, this.#lampColors, lamp, of);
   }
 
   /** The surface that a lamp stands for; its material may be that of others, too. */
@@ -106,6 +121,10 @@ export class LightGroups {
 /** What a grid's light is multiplied by: the factor of its group, and of the sky where it is the sky's own. */
 function partsOfGrid({ group, contains }: LightGridDefinition): string[] {
   return contains?.includes('indirect') === false ? [group ?? '', SKY] : [group ?? ''];
+}
+
+function product(factors: Factor[]): Factor {
+  return factors.reduce((all, of) => all.map((x, c) => x * of[c]!) as Factor, AS_BAKED);
 }
 
 /** Throws when it is none. */
@@ -138,6 +157,18 @@ class SummedGrid {
     return this.#parts.values().next().value?.state;
   }
 
+  /** What multiplies the sky's own light, where that is apart. */
+  get namesOfSky(): string[] {
+    return [...this.#parts.values()].map(({ names }) => names).find((names) => names.includes(SKY)) ?? [];
+  }
+
+  /** Such a grid of all but the sky's own light, where that is apart. */
+  get withoutSky(): LightGridDefinition | null {
+    if (this.namesOfSky.length === 0) return null;
+    const { definition } = this;
+    return { ...definition, stream: -1 - definition.stream, insteadOf: definition, contains: definition.contains!.filter((what) => what !== 'environment') };
+  }
+
   fits({ min, cell, nodes, priority = 0 }: LightGridDefinition): boolean {
     const { definition } = this;
     const same = (a: number[], b: number[]) => a.every((x, i) => x === b[i]);
@@ -165,7 +196,7 @@ class SummedGrid {
   state(factors: ReadonlyMap<string, Factor>): LightEvent {
     const summed = [...this.#parts.values()].map(({ names, state }) => ({
       atlas: state.atlas,
-      factor: names.map((name) => factors.get(name) ?? AS_BAKED).reduce((all, of) => all.map((x, c) => x * of[c]!) as Factor),
+      factor: product(names.map((name) => factors.get(name) ?? AS_BAKED)),
     }));
     return { ...this.#first!, atlas: sumOf(summed, this.#first!) };
   }

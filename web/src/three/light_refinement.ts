@@ -26,10 +26,10 @@ export class LightRefinement implements Refinement {
   constructor(light: LightwellLight, renderer: WebGLRenderer, private readonly received = true) {
     this.#light = light;
     this.#renderer = renderer;
-    this.#hidden = atlasTexture(atlasOf(light.texture), light);
-    const { width, height, depth } = light.texture.image;
+    this.#hidden = atlasTexture(atlasOf(light.newest), light);
+    const { width, height, depth } = light.newest.image;
     this.#sweep = new RowSweep(width * TEXEL_BYTES, height, depth);
-    for (const texture of [light.texture, this.#hidden]) renderer.initTexture(texture);
+    for (const texture of [light.newest, this.#hidden]) renderer.initTexture(texture);
   }
 
   get pending(): boolean {
@@ -38,7 +38,7 @@ export class LightRefinement implements Refinement {
 
   /** A newer state takes the place of one that has not begun to be handed over. Throws when it is of another size. */
   receive(event: LightEvent): void {
-    const { width, height, depth } = this.#light.texture.image;
+    const { width, height, depth } = this.#light.newest.image;
     if (event.width !== width || event.height !== height || event.depth !== depth)
       throw new Error(`the light of stream ${this.#light.definition.stream} has another size than before`);
     const state = atlasTexture(event, this.#light);
@@ -84,8 +84,8 @@ export class LightRefinement implements Refinement {
   /** Swaps the textures. Each keeps its texels in memory, since the GPU may lose them. */
   #show(state: Data3DTexture): void {
     const shown = this.#hidden;
-    this.#hidden = this.#light.texture;
-    this.#light.texture = shown;
+    this.#hidden = this.#light.newest;
+    this.#light.newest = shown;
     shown.image.data = state.image.data;
     this.#consumed += texelsOf(state).byteLength;
     this.#current = null;

@@ -138,9 +138,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     this.bounds = finalBounds(opening);
     this.focus = focusOf(opening, this.bounds);
     this.exposure = opening.extensions.LIGHTWELL_streams?.exposure ?? 0;
-    this.grids = grids;
+    this.grids = grids.filter(({ definition }) => !definition.insteadOf);
     for (const grid of grids) this.#lights.set(assetOf(grid.definition), new LightRefinement(grid, renderer, groups === null));
-    this.add(...grids);
+    this.add(...this.grids);
   }
 
   /**
@@ -175,17 +175,17 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     const { LIGHTWELL_parts: parts } = opening.extensions;
     if (parts) scene.parts = new (await import('./parts.js')).Parts(parts, opening, Box3);
     const lamps = opening.extensions.LIGHTWELL_lamps?.lamps ?? [];
-    if (lamps.length > 0) {
+    if (lamps.length > 0 || groups?.skyIsApart) {
       const { DirectLight } = await import('./direct/direct_light.js');
-      scene.#shine(new DirectLight(DIRECT_KIT, lamps, scene.#surroundings()));
+      scene.#shine(new DirectLight(DIRECT_KIT, lamps, scene.#surroundings(grids)));
     }
     return scene;
   }
 
-  #surroundings(): ConstructorParameters<typeof DirectLight>[2] {
-    const { bounds, focus, opening } = this;
+  #surroundings(grids: LightwellLight[]): ConstructorParameters<typeof DirectLight>[2] {
+    const { bounds, focus, opening, environment } = this;
     const [renderer, scheduler] = [this.#renderer, FrameScheduler.of(this.#renderer)];
-    return { renderer, scheduler, bounds, focus, opening, changed: () => this.#changed() };
+    return { renderer, scheduler, bounds, focus, opening, environment, grids, changed: () => this.#changed() };
   }
 
   #shine(direct: DirectLight): void {
@@ -239,13 +239,13 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   /** Multiplies all light of a group of lamps, bounced or not, for each colour; 0 switches it off. Throws when there is none of the name. */
   setLightGroup(name: string, factor: number | [number, number, number]): void {
-    const groups = this.#groups;
-    if (groups === null) throw new Error('the light of this pack has no groups');
-    groups.set(name, factor, this.lamps, this.opening);
-    this.#showGroups(groups);
+    this.#changeGroups((groups) => groups.set(name, factor, this.lamps, this.opening));
   }
 
-  #showGroups(groups: LightGroups): void {
+  #changeGroups(change: (groups: LightGroups) => void): void {
+    const groups = this.#groups;
+    if (groups === null) throw new Error('the light of this pack is not divided');
+    change(groups);
     for (const state of groups.states()) this.#lights.get(state.asset)!.receive(state);
     this.#uploads.request();
     this.#changed();
@@ -256,9 +256,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
    * means. Throws when it is not apart.
    */
   setSkyLight(factor: number | [number, number, number]): void {
-    if (this.#groups === null) throw new Error('the light of this pack is not divided');
-    this.#groups.setSky(factor);
-    this.#showGroups(this.#groups);
+    this.#changeGroups((groups) => groups.setSky(factor, this.lamps));
   }
 
   /**
@@ -363,8 +361,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   #refineLight(event: LightEvent): void {
     if (this.#groups === null) return this.#refineBy(event, this.#lights.get(event.asset));
     this.#connection.consumed(event.atlas.byteLength);
-    const sum = this.#groups.receive(event);
-    this.#refineBy(sum, this.#lights.get(sum.asset));
+    for (const sum of this.#groups.receive(event)) this.#refineBy(sum, this.#lights.get(sum.asset));
   }
 
   #fail(error: unknown): void {

@@ -4,6 +4,7 @@ import type {
   BufferGeometry,
   Camera,
   DataTexture,
+  Matrix4,
   Object3D,
   Points,
   PointsMaterial,
@@ -13,17 +14,20 @@ import type {
   WebGLRenderer,
 } from 'three';
 import type { DirectKit } from '../direct_kit.js';
+import type { Environment } from '../environment.js';
 import type { LampDefinition } from '../extensions.js';
 import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
+import type { LightwellLight } from '../light.js';
 import type { Opening } from '../opening.js';
 import { aside } from './aside.js';
 import { letLampsThrough } from './casters.js';
 import { three, useKit } from './kit.js';
-import { createLamp, formOf, type Lamp, type PlacedLamp, placed, texelsOf } from './lamp.js';
-import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
+import { createLamp, formOf, type Lamp, type PlacedLamp, placed, TEXELS_OF_LAMP, TEXELS_OF_SKY, texelsOf } from './lamp.js';
+import { type LampPoint, middleOf, pointOf, skyPointOf } from './lamp_points.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
 import { ScreenShares } from './screen_shares.js';
 import { ShadowMap } from './shadow_map.js';
+import { Sky } from './sky.js';
 import { signatureOf, Surfaces } from './surfaces.js';
 
 export type Shadows = 'soft' | 'hard' | 'off';
@@ -31,6 +35,10 @@ export type Shadows = 'soft' | 'hard' | 'off';
 /** How many points of a lamp are enough: of one with an area, and of one without, whose map alone is smoothed. */
 const POINTS = 256;
 const POINTS_OF_POINT = 32;
+/** Of the sky, half of whose directions come from below a floor. */
+const POINTS_OF_SKY = 512;
+/** From so many points on the sky is shown as a lamp; until then the grid shows it. */
+const POINTS_TO_SHOW_SKY = 64;
 /** A visitor who saves data saves power, too. */
 const SAVING = 4;
 /** A picture is shown when every lamp has had so many points, and each time that they have doubled. */
@@ -40,10 +48,15 @@ const BUDGET = 4;
 /** Sides of the maps, in texels: of a cube's faces, and of a sun's picture. */
 const CUBE_SIZE = 512;
 const SUN_SIZE = 2048;
+/** Of the sky's pictures, whose edges none of so many shows. */
+const SKY_SIZE = 1024;
 /** Of more lamps than this the maps that are kept are half as fine. */
 const FEW_LAMPS = 4;
 /** While geometry streams in, shadows are drawn anew at most so often, in milliseconds. */
 const INTERVAL = 500;
+
+/** Of packs whose grids have its own light apart. */
+const SKY: LampDefinition = { kind: 'sky', radiance: [1, 1, 1] };
 
 /** A lamp's shadow in the present view. */
 interface Shadow {
@@ -62,6 +75,9 @@ export interface Surroundings {
   readonly bounds: Box3;
   readonly focus: Box3;
   readonly opening: Opening;
+  readonly environment: Environment | undefined;
+  /** Those that are made to be shown in the place of others, too. */
+  readonly grids: LightwellLight[];
   /** Called when a better picture can be drawn. */
   readonly changed: () => void;
 }
@@ -81,10 +97,13 @@ export class DirectLight {
   readonly #shares: ScreenShares;
   readonly #table: DataTexture;
   readonly #shadows: Shadow[];
-  readonly #scratch = new Map<boolean, ShadowMap>();
+  readonly #scratch = new Map<number, ShadowMap>();
   readonly #task: FrameTask;
   readonly #floats: boolean;
   #kind: Shadows = 'soft';
+  #sky: Sky | null = null;
+  /** Of the picture that the sky was made of. */
+  #skyVersion = -1;
   #root: Object3D | null = null;
   #signature = NaN;
   #seenStale = true;
@@ -103,16 +122,17 @@ export class DirectLight {
     this.#surroundings = surroundings;
     const { renderer, scheduler } = surroundings;
     letLampsThrough(definitions, surroundings.opening, surroundings.focus);
-    this.lamps = definitions.map(createLamp);
+    this.lamps = [...definitions, ...(surroundings.grids.some(({ definition }) => definition.insteadOf) ? [SKY] : [])].map(createLamp);
     this.#floats = renderer.extensions.has('EXT_color_buffer_float');
     this.#surfaces = new Surfaces(renderer);
-    const width = 2 + 5 * this.lamps.length;
+    const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
     this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
-    this.#shares = new ScreenShares(this.lamps.length, width);
+    const sky = this.lamps.some(isSky);
+    this.#shares = new ScreenShares(this.lamps.length + (sky ? 2 : 0), width);
     const size = this.lamps.length > FEW_LAMPS ? 2 : 1;
     this.#shadows = this.lamps.map((lamp) => {
-      const sun = lamp.definition.kind === 'sun';
-      return { lamp, middle: new ShadowMap(sun, (sun ? SUN_SIZE : CUBE_SIZE) / size), form: null, count: -1 };
+      const middle = new ShadowMap(hasPicture(lamp), sizeOf(lamp) / size);
+      return { lamp, middle, form: null, count: -1 };
     });
     this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
     this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table;
@@ -183,7 +203,8 @@ export class DirectLight {
     if (this.#kind !== 'soft') return 0;
     const saving = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
     const area = definition.kind === 'rectangle' || definition.kind === 'sphere';
-    return (area ? POINTS : POINTS_OF_POINT) / (saving ? SAVING : 1);
+    const points = definition.kind === 'sky' ? POINTS_OF_SKY : area ? POINTS : POINTS_OF_POINT;
+    return points / (saving ? SAVING : 1);
   }
 
   /** Everything that materials read, for a camera that is about to draw. */
@@ -197,11 +218,35 @@ export class DirectLight {
       this.#drawing = true;
       aside(renderer, () => {
         if (shadowed) this.#look(camera, shining, viewport);
-        this.#writeTable(camera, shining, shadowed);
+        this.#showSky(shining, shadowed);
+        this.#writeTable(camera, shining.filter((shadow) => !isSky(shadow.lamp) || this.#showsSky(shadow, shadowed)), shadowed);
         this.#shares.showTable(renderer, this.#table);
       });
       this.#drawing = false;
     } else this.#writeTable(camera, shining, false);
+  }
+
+  #showsSky({ lamp, count }: Shadow, shadowed: boolean): boolean {
+    return shadowed && isSky(lamp) && count >= POINTS_TO_SHOW_SKY;
+  }
+
+  /** Lets the grids have the sky's own light unless it is shown as a lamp. */
+  #showSky(shining: Shadow[], shadowed: boolean): void {
+    const shown = shining.some((shadow) => this.#showsSky(shadow, shadowed));
+    const { grids } = this.#surroundings;
+    for (const grid of grids) {
+      const other = grids.find(({ definition }) => definition === grid.definition.insteadOf);
+      if (other !== undefined) other.shown = shown ? grid : other;
+    }
+  }
+
+  /** As its picture is now, which gets sharper. */
+  #skyNow(): Sky {
+    const picture = this.#surroundings.environment?.texture;
+    const version = picture?.version ?? 0;
+    if (this.#sky === null || version !== this.#skyVersion) this.#sky = Sky.of(this.#surroundings.opening, picture);
+    this.#skyVersion = version;
+    return this.#sky;
   }
 
   /** Looks the kept maps up where the view, what is seen, or the map is another than before. */
@@ -222,12 +267,19 @@ export class DirectLight {
     for (const shadow of shining) {
       const form = placed(shadow.lamp);
       const now = formOf(form);
+      if (isSky(shadow.lamp)) {
+        const sky = this.#sky;
+        if (shadow.form === null || sky !== this.#skyNow()) Object.assign(shadow, { form: now, count: -1 });
+        shadow.count = Math.max(0, shadow.count);
+        if (this.#enough(shadow) > 0) this.#scratchMap(shadow.lamp);
+        continue;
+      }
       if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
         this.#drawMap(shadow.middle, form, middleOf(form));
         this.#mapsTime = performance.now();
         Object.assign(shadow, { form: now, count: -1 });
       }
-      if (this.#enough(shadow) > 0) this.#scratchMap(shadow.middle.sun);
+      if (this.#enough(shadow) > 0) this.#scratchMap(shadow.lamp);
       if (shadow.count >= 0) continue;
       this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
       shadow.count = 0;
@@ -266,10 +318,19 @@ export class DirectLight {
     const texels = shining.flatMap((shadow) => texelsOf(placed(shadow.lamp), space, this.#shadows.indexOf(shadow)));
     const data = this.#table.image.data as Float32Array;
     const { width, height, viewport } = this.#shares;
-    const now = Float32Array.of(shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...texels);
+    const now = new Float32Array(data.length);
+    const sky = shining.some(({ lamp }) => isSky(lamp)) ? this.#skyTexels(view) : new Array(4 * TEXELS_OF_SKY).fill(0);
+    now.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...sky, ...texels]);
     if (now.every((number, i) => number === data[i])) return;
     data.set(now);
     this.#table.needsUpdate = true;
+  }
+
+  /** The irradiance of the sky, by normals in the camera's space. */
+  #skyTexels(view: Matrix4): number[] {
+    const turn = new three.Matrix4().extractRotation(view.clone().multiply(this.hook.matrixWorld));
+    const back = turn.clone().transpose();
+    return this.#skyNow().irradiance.flatMap((matrix) => turn.clone().multiply(matrix).multiply(back).toArray());
   }
 
   /** Adds samples of the lamps that have fewest. */
@@ -294,24 +355,37 @@ export class DirectLight {
   }
 
   /** What samples are drawn into, one after another. */
-  #scratchMap(sun: boolean): ShadowMap {
-    let map = this.#scratch.get(sun);
+  #scratchMap(lamp: Lamp): ShadowMap {
+    const size = sizeOf(lamp);
+    let map = this.#scratch.get(size);
     if (map === undefined) {
-      map = new ShadowMap(sun, sun ? SUN_SIZE : CUBE_SIZE);
+      map = new ShadowMap(hasPicture(lamp), size);
       map.allocate(this.#surroundings.renderer);
-      this.#scratch.set(sun, map);
+      this.#scratch.set(size, map);
     }
     return map;
   }
 
   #sample(shadow: Shadow): void {
     const { renderer } = this.#surroundings;
-    const map = this.#scratchMap(shadow.middle.sun);
+    const map = this.#scratchMap(shadow.lamp);
     const form = placed(shadow.lamp);
-    this.#drawMap(map, form, pointOf(form, shadow.count));
-    this.#shares.add(renderer, this.#shadows.indexOf(shadow), map, shadow.count === 0, false);
+    this.#drawMap(map, form, isSky(shadow.lamp) ? skyPointOf(form, this.#skyNow(), shadow.count) : pointOf(form, shadow.count));
+    const share = this.#shadows.indexOf(shadow);
+    const { color = [1] } = map.point;
+    color.forEach((strength, channel) => this.#shares.add(renderer, share + channel, map, shadow.count === 0, false, strength));
     shadow.count++;
   }
+}
+
+const isSky = ({ definition }: Lamp) => definition.kind === 'sky';
+
+/** Whether its light comes from far away: its shadow is one picture, not a cube. */
+const hasPicture = ({ definition }: Lamp) => definition.kind === 'sun' || definition.kind === 'sky';
+
+/** The side of its maps, in texels; no two kinds of maps have the same. */
+function sizeOf({ definition }: Lamp): number {
+  return definition.kind === 'sun' ? SUN_SIZE : definition.kind === 'sky' ? SKY_SIZE : CUBE_SIZE;
 }
 
 /** Whether a power of two lies between two numbers, the latter included. */

@@ -10,7 +10,7 @@ import { three } from './kit.js';
 export type Lamp = Light & { readonly definition: LampDefinition };
 
 /** In the order of shaders/direct_light.glsl. */
-const KINDS = ['rectangle', 'sphere', 'point', 'spot', 'sun'] as const;
+const KINDS = ['rectangle', 'sphere', 'point', 'spot', 'sun', 'sky'] as const;
 
 /** A lamp's form in the world. */
 export interface PlacedLamp {
@@ -67,7 +67,11 @@ export function formOf({ position, u, v, normal, radius }: PlacedLamp): number[]
   return [position, u, v, normal].flatMap((vector) => vector.toArray()).concat(radius);
 }
 
-/** The five texels of a lamp in the table of shaders/direct_light.glsl. */
+/** Of a lamp in the table of shaders/direct_light.glsl, and of a sky's irradiance. */
+export const TEXELS_OF_LAMP = 5;
+export const TEXELS_OF_SKY = 12;
+
+/** The texels of a lamp in the table of shaders/direct_light.glsl. */
 export function texelsOf(placed: PlacedLamp, view: CameraSpace, share: number): number[] {
   const { lamp, kind, scale, normal } = placed;
   const { definition } = lamp;

@@ -2,10 +2,13 @@
 import type { Vector3 } from 'three';
 import { three } from './kit.js';
 import type { PlacedLamp } from './lamp.js';
+import type { Sky } from './sky.js';
 
 /** A point of a lamp, from which a shadow map is drawn. */
 export interface LampPoint {
   readonly position: Vector3;
+  /** Of what it adds to the sums, where each colour has its own. */
+  readonly color?: readonly [number, number, number];
   /** Of the lamp's surface there; 0 where it shines evenly to all sides. */
   readonly normal: Vector3;
   readonly bothSides: boolean;
@@ -30,8 +33,7 @@ export function middleOf(placed: PlacedLamp): LampPoint {
  * covers the lamp evenly. All lamps have the same sequence: their shadows are never mixed, so that nothing has to tell them apart.
  */
 export function pointOf(placed: PlacedLamp, index: number): LampPoint {
-  const a = ((radicalInverse(index) ^ SHIFT) >>> 0) / 2 ** 32;
-  const b = ((sobol(index) ^ SHIFT) >>> 0) / 2 ** 32;
+  const [a, b] = squareOf(index);
   const { definition } = placed.lamp;
   const position = placed.position.clone();
   const normal = new three.Vector3();
@@ -47,6 +49,18 @@ export function pointOf(placed: PlacedLamp, index: number): LampPoint {
   const tilt = definition.kind === 'sun' ? 0 : TILT;
   const axes = axesOf(placed.normal, index, tilt * (a - 0.5), tilt * (b - 0.5));
   return { position, normal, bothSides: definition.twoSided === true, axes };
+}
+
+/** The direction of a number from 0 on, from which a picture of the sky's light is drawn: where `placed` stands is the pack. */
+export function skyPointOf(placed: PlacedLamp, sky: Sky, index: number): LampPoint {
+  const { direction, color } = sky.sampleOf(...squareOf(index));
+  const front = direction.negate().transformDirection(placed.lamp.matrixWorld);
+  return { position: placed.position, color, normal: new three.Vector3(), bothSides: true, axes: axesOf(front, index, 0, 0) };
+}
+
+/** The point of a number in the unit square. */
+function squareOf(index: number): [number, number] {
+  return [((radicalInverse(index) ^ SHIFT) >>> 0) / 2 ** 32, ((sobol(index) ^ SHIFT) >>> 0) / 2 ** 32];
 }
 
 /** The bits of a whole number, the lowest first, as a fraction of 2^32. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import lamps from '../../../../shaders/direct_light.glsl';
 import loop from '../../../../shaders/direct_light_loop.glsl';
+import sky from '../../../../shaders/direct_light_sky.glsl';
 import { three } from './kit.js';
 
 /** Of the spot light that stands for the lamps of a pack; no other light has it. */
@@ -18,4 +19,5 @@ export function installLampChunks(): void {
   if (replaced === ShaderChunk.lights_fragment_begin) throw new Error('the shader of spot lights is not that of three.js 0.187');
   ShaderChunk.lights_fragment_begin = replaced;
   ShaderChunk.lights_pars_begin += lamps;
+  ShaderChunk.lights_fragment_maps += sky;
 }

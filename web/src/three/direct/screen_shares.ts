@@ -34,7 +34,7 @@ export class ScreenShares {
   readonly #view: Matrix4 = new three.Matrix4();
 
   constructor(
-    lamps: number,
+    shares: number,
     private readonly tableWidth: number,
   ) {
     const floats = { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter };
@@ -43,7 +43,7 @@ export class ScreenShares {
     this.picture = new three.WebGLRenderTarget(tableWidth, 2, flat);
     this.picture.scissorTest = true;
     this.#surfaces = new three.WebGLRenderTarget(1, 1, floats);
-    this.#sums = Array.from({ length: lamps }, sum);
+    this.#sums = Array.from({ length: shares }, sum);
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
     this.#shares = new FullScreen(this.#screen, sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
@@ -90,17 +90,21 @@ export class ScreenShares {
     surfaces.draw(root, 'seen', (render) => render(camera));
   }
 
-  /** Looks a map up for every pixel: adds a sample to a lamp's sums, or begins them with it. `soft`: filtered, as a lamp's only sample. */
-  add(renderer: WebGLRenderer, lamp: number, map: ShadowMap, first: boolean, soft: boolean): void {
+  /**
+   * Looks a map up for every pixel: adds a sample of some strength to the sums of a share, or begins them with it. `soft`: filtered, as a
+   * lamp's only sample.
+   */
+  add(renderer: WebGLRenderer, share: number, map: ShadowMap, first: boolean, soft: boolean, strength = 1): void {
     const { point, range, sun } = map;
     const axes = new three.Matrix3();
     const [x, y, z] = point.axes.map((axis) => axis.clone().transformDirection(this.#view));
     axes.set(x!.x, x!.y, x!.z, y!.x, y!.y, y!.z, z!.x, z!.y, z!.z);
     this.#lookup(sun, soft).draw(renderer, this.#spare, {
       surfaces: this.#surfaces.texture,
-      sums: this.#sums[lamp]!.texture,
+      sums: this.#sums[share]!.texture,
       depths: map.depths,
       first,
+      strength,
       projection: this.#projection,
       axes,
       point: (sun ? map.center : point.position).clone().applyMatrix4(this.#view),
@@ -109,7 +113,7 @@ export class ScreenShares {
       size: map.size,
       range: new three.Vector2(...range),
     });
-    [this.#sums[lamp], this.#spare] = [this.#spare, this.#sums[lamp]!];
+    [this.#sums[share], this.#spare] = [this.#spare, this.#sums[share]!];
   }
 
   /** Shows the shares as they are now. */
@@ -141,7 +145,7 @@ export class ScreenShares {
 
   #lookup(sun: boolean, soft: boolean): FullScreen {
     const key = `${sun}${soft}`;
-    const names = ['surfaces', 'sums', 'depths', 'first', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
+    const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
     const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
     const pass = this.#lookups.get(key) ?? new FullScreen(this.#screen, lookupShader, uniforms, defines);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// To be appended to three.js's chunk lights_fragment_maps (0.187), behind light_grid_reflection.glsl: adds the sky where it is shown as a
+// lamp (direct_light.glsl). The grid then has all light but the sky's own.
+
+#if NUM_SPOT_LIGHT_MAPS > 0
+
+	if ( skyLight.lit ) {
+
+		#if defined( RE_IndirectDiffuse )
+
+			irradiance += skyLight.irradiance;
+			iblIrradiance = vec3( 0.0 );
+
+		#endif
+
+		#if defined( RE_IndirectSpecular ) && NUM_LIGHT_PROBE_GRIDS > 0
+
+			// The picture of the sky is sharper than the moments of its light, where there is one.
+			#ifdef USE_ENVMAP
+				radiance += ( skyLight.share - 1.0 ) * iblRadiance;
+			#else
+				radiance += skyLight.mirrored;
+			#endif
+			radiance += more / max( once, vec3( 1e-4 ) ) * skyLight.irradiance * RECIPROCAL_PI;
+
+		#endif
+
+	}
+
+#endif
