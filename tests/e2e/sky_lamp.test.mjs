@@ -111,7 +111,7 @@ const settle = (page) =>
   });
 
 /** CIEDE2000 to the picture of `render` from the same grid and the sky's light by rays, whose noise is in it; 1 is just visible. */
-const MEAN = 0.4;
+const MEAN = 0.5;
 const P95 = 1;
 
 for (const [name, environment] of [
