@@ -69,7 +69,7 @@ ivec2 getPlaceOfShares( sampler2D map, float distance ) {
 
 }
 
-// What the sky gives a fragment, as a lamp: how much of it reaches the fragment, the irradiance, and what comes from where it mirrors.
+// What the sky gives a fragment, as a lamp: by what its light is multiplied on the way, the irradiance, and what comes from where it mirrors.
 struct SkyLight {
 	bool lit;
 	vec3 share;

@@ -13,13 +13,12 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 		Lamp lamp = readLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], k );
 		if ( lamp.kind == LAMP_SKY ) {
 
-			vec3 share;
-			for ( int c = 0; c < 3; c ++ ) share[ c ] = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
 			vec3 mirrored = reflect( - geometryViewDir, geometryNormal );
 			skyLight.lit = true;
-			skyLight.share = share;
-			skyLight.irradiance = share * lamp.color * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], geometryNormal );
-			skyLight.mirrored = share * lamp.color * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], mirrored ) * RECIPROCAL_PI;
+			skyLight.share = lamp.color;
+			if ( shadowed ) for ( int c = 0; c < 3; c ++ ) skyLight.share[ c ] *= getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
+			skyLight.irradiance = skyLight.share * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], geometryNormal );
+			skyLight.mirrored = skyLight.share * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], mirrored ) * RECIPROCAL_PI;
 			continue;
 
 		}

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// To be appended to three.js's chunk lights_fragment_maps (0.187), behind light_grid_reflection.glsl: adds the sky where it is shown as a
-// lamp (direct_light.glsl). The grid then has all light but the sky's own.
+// To be appended to three.js's chunk lights_fragment_maps (0.187), behind light_grid_reflection.glsl (a pack's grids are made before its
+// lamps): adds the sky where it is shown as a lamp (direct_light.glsl) and the grid that was looked up is without it.
 
-#if NUM_SPOT_LIGHT_MAPS > 0
+#if NUM_SPOT_LIGHT_MAPS > 0 && NUM_LIGHT_PROBE_GRIDS > 0
 
-	if ( skyLight.lit ) {
+	if ( skyLight.lit && ( lightProbeSample.marks & 4 ) != 0 ) {
 
 		#if defined( RE_IndirectDiffuse )
 
@@ -14,11 +14,14 @@
 
 		#endif
 
-		#if defined( RE_IndirectSpecular ) && NUM_LIGHT_PROBE_GRIDS > 0
+		#if defined( RE_IndirectSpecular )
 
 			// The picture of the sky is sharper than the moments of its light, where there is one.
 			#ifdef USE_ENVMAP
 				radiance += ( skyLight.share - 1.0 ) * iblRadiance;
+				#ifdef USE_CLEARCOAT
+					clearcoatRadiance *= skyLight.share;
+				#endif
 			#else
 				radiance += skyLight.mirrored;
 			#endif

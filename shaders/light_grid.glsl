@@ -77,10 +77,10 @@ struct LightProbeSample {
 	vec3 turn;       // a world direction in their axes is turned back by this quaternion ...
 	vec3 stretch;    // ... and stretched, up to length
 	bool reflects;   // whether metals take their reflection from here: in grids of Lightwell's
-	bool sky;        // whether the light of the environment is in it already
+	int marks;       // bits: 1 where the light of the environment is in it already, 4 where the sky shines beside it as a lamp
 };
 
-LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, vec3( 0.0 ), vec3( 1.0 ), false, false );
+LightProbeSample lightProbeSample = LightProbeSample( vec3[ 9 ]( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) ), 1.0, vec3( 0.0 ), vec3( 1.0 ), false, 0 );
 
 // A world direction in the axes of the sample, of length 1.
 vec3 directionInGrid( vec3 worldDirection ) {
@@ -209,7 +209,7 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 		if ( bricks ) last = texelFetch( probesSH, ivec3( 2, 0, 0 ), 0 ).rgb;
 		lightProbeSample.turn = probesMax;
 		lightProbeSample.stretch = sizeOfGrid( probesResolution ) / ( last * header.rgb );
-		lightProbeSample.sky = mod( parts.r, 2.0 ) > 0.5;
+		lightProbeSample.marks = int( parts.r );
 		normal = directionInGrid( worldNormal );
 		node = fractionOfGrid( worldPos, probesMin, probesMax, probesResolution ) * last + header.a * normal;
 
@@ -224,7 +224,7 @@ vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3
 	}
 
 	vec3 next = vec3( 0.0, 0.0, subVolume / atlasSize.z );
-	if ( parts.r > 1.5 ) fetchLightProbesTricubic( probesSH, node, last, parts, atlasSize, next );
+	if ( ( int( parts.r ) & 2 ) != 0 ) fetchLightProbesTricubic( probesSH, node, last, parts, atlasSize, next );
 	else fetchLightProbes( probesSH, ( texel + 0.5 ) / atlasSize, next );
 	lightProbeSample.reflects = ours;
 	if ( ! ours ) lightProbeSample.weight = 1.0;

@@ -8,7 +8,7 @@
 
 	#if defined( RE_IndirectDiffuse )
 
-		if ( lightProbeSample.sky ) iblIrradiance = vec3( 0.0 );
+		if ( ( lightProbeSample.marks & 1 ) != 0 ) iblIrradiance = vec3( 0.0 );
 
 	#endif
 
@@ -22,7 +22,7 @@
 			// What is mirrored of the environment is sharp in its picture and dimmed where surfaces hide it in the grid: as much of
 			// the grid's light as can be the environment's is taken for that, and shown as the picture has it. Together they are as
 			// bright as the grid, and on what is rough no other.
-			if ( lightProbeSample.sky ) {
+			if ( ( lightProbeSample.marks & 1 ) != 0 ) {
 
 				vec3 open = getIBLIrradiance( reflected ) * RECIPROCAL_PI;
 				vec3 part = baked / max( open, vec3( 1e-6 ) );

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { build } from 'esbuild';
 import { minify } from 'terser';
-import { glslPlugin } from './glsl_plugin.mjs';
+import { textPlugins } from './text_plugins.mjs';
 
 /** What a script says to the bundlers of those who use it. */
 export const FOR_BUNDLERS = /webpackIgnore|@vite-ignore/;
@@ -22,7 +22,7 @@ export async function bundle(options, comments = false) {
     outdir: 'dist',
     legalComments: 'none',
     logLevel: 'warning',
-    plugins: [glslPlugin],
+    plugins: textPlugins,
     write: false,
     ...options,
   });

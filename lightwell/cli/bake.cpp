@@ -201,9 +201,9 @@ Result<void> bake_grid(const Options& options, Progress& progress, Bake& bake) {
 void advise_budget(const LightBakeOptions& light, const LightBakeStatistics& statistics, ConsoleProgress& progress) {
   constexpr float well = 1.5f;  // estimates themselves err by so much (docs/decisions/036)
   if (statistics.refinement != Refinement::to_budget || statistics.estimated_error < well * light.target_error) return;
-  progress.note("the light fills its " + size_text(light.most_bytes) + " at an estimated error of " +
+  progress.note("the light grid reached its --budget of " + size_text(light.most_bytes) + " at an estimated error of " +
                 short_number(100 * statistics.estimated_error) + " %, not " + short_number(100 * light.target_error) +
-                " %: a larger --budget lets it be finer");
+                " %: a larger one lets it be finer");
 }
 
 Result<void> run(const Options& options, ConsoleProgress& progress, Bake& bake) {
@@ -334,8 +334,9 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_number(*command, "--stop-after", options->stop_after, {0, 1e9},
              "Of --grid auto: about so many seconds the light may take; what there is then, is written");
   command->add_flag("--preview", options->preview, "A first light in seconds: fewer rays, and --stop-after 2");
-  command->add_flag("--sky-apart", options->sky_apart,
-                    "Keep the sky's own light in a grid apart from what surfaces reflect: the page then refines its shadows");
+  command->add_flag(
+      "--sky-apart", options->sky_apart,
+      "Keep the sky's own light in a grid apart from what surfaces reflect: the page then refines its shadows");
   command->add_flag("--resume", options->resume,
                     "Keep the light of each node in PACK.journal, and go on with what an interrupted run left there");
   command->footer(

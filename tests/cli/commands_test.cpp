@@ -115,6 +115,13 @@ TEST_F(Commands, EveryKindOfGridIsPackedAndRead) {
   EXPECT_FALSE(fs::exists(path("no.glb.journal"))) << "what is refused leaves nothing";
 }
 
+TEST_F(Commands, ALightThatIsFullLongBeforeItsTargetIsSaid) {
+  const std::string bake = "bake box-small --photons 20k --budget 12k -o " + path("a.glb");
+  const std::string advice = "the light grid reached its --budget of 12";
+  EXPECT_NE(run(bake + " --target-error 1").err.find(advice), std::string::npos);
+  EXPECT_EQ(run(bake + " --target-error 60").err.find(advice), std::string::npos);
+}
+
 TEST_F(Commands, AdaptiveGridsKeepToBudgetTargetAndTime) {
   const std::string bake = "bake box-small --photons 20k --quiet --json -o " + path("a.glb");
   const auto figures = [&](const std::string& options) { return json::parse(run(bake + options).out); };

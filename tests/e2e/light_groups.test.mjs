@@ -154,11 +154,12 @@ test('the sky’s own light is dimmed apart from what surfaces reflect', async (
     return page.evaluate(async (of) => {
       const view = document.querySelector('lightwell-view');
       view.setAttribute('tone', 'none');
-      const { texture } = view.pack.grids[0];
+      view.setAttribute('shadows', 'hard');
+      const { newest } = view.pack.grids[0];
       const input = [...document.querySelectorAll('#groups input')].find(({ type }) => type === 'range');
       input.value = of;
       input.dispatchEvent(new Event('input'));
-      while (view.pack.grids[0].texture === texture) await new Promise(requestAnimationFrame);
+      while (view.pack.grids[0].newest === newest) await new Promise(requestAnimationFrame);
       view.draw();
       const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
       const pixel = new Uint8Array(4);

@@ -51,16 +51,16 @@ test('beside a wall the floor has the light of the closed form', async (t) => {
 
 const MATT = { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.6, 0.6, 0.6, 1] }, extensions: { KHR_materials_specular: { specularFactor: 0 } } };
 
-/** A Radiance picture: bright and warm to one side, blue above, dark below. */
+/** A Radiance picture: bright and warm to +x, cold to +z, blue above, dark below. */
 function writeSky(file, width = 64) {
   const height = width / 2;
   const pixels = [];
   for (let y = 0; y < height; y++)
     for (let x = 0; x < width; x++) {
       const [azimuth, polar] = [2 * Math.PI * ((x + 0.5) / width - 0.5), (Math.PI * (y + 0.5)) / height];
-      const [toX, up] = [Math.sin(polar) * Math.sin(azimuth), Math.cos(polar)];
-      const warm = Math.max(0, toX) ** 4;
-      pixels.push(...[30 + 200 * warm, 40 + 60 * warm, 60 + 30 * Math.max(0, up)].map((value) => Math.round(up < 0 ? value / 8 : value)), 130);
+      const [toX, up, toZ] = [Math.sin(polar) * Math.sin(azimuth), Math.cos(polar), -Math.sin(polar) * Math.cos(azimuth)];
+      const [warm, cold] = [toX, toZ].map((along) => Math.max(0, along) ** 4);
+      pixels.push(...[30 + 200 * warm, 40 + 60 * warm + 60 * cold, 60 + 30 * Math.max(0, up) + 90 * cold].map((value) => Math.round(up < 0 ? value / 8 : value)), 130);
     }
   const header = `#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`;
   writeFileSync(file, Buffer.concat([Buffer.from(header), Buffer.from(pixels)]));
@@ -114,9 +114,11 @@ const settle = (page) =>
 const MEAN = 0.5;
 const P95 = 1;
 
+const SKY = writeSky(`${folder}/sky.hdr`);
+
 for (const [name, environment] of [
   ['uniform', '1,1,1'],
-  ['picture', writeSky(`${folder}/sky.hdr`)],
+  ['picture', SKY],
 ])
   test(`at rest a scene under a ${name} sky looks as lightwell render shows it, and nearer to the path tracer than the grid alone`, async (t) => {
     const pack = packUnder(name, environment);
@@ -137,3 +139,84 @@ for (const [name, environment] of [
     assert.ok(after.mean < before.mean && after.p95 < before.p95, words(after));
     assert.deepEqual(errors, []);
   });
+
+/** Between two pictures of the same, whose directions fall on other texels; 1 is just visible. */
+const ALIKE = 0.4;
+
+test('the sky turns with its pack', async (t) => {
+  const { page, errors } = await open(t, packUnder('turned', SKY));
+  await settle(page);
+  await pictureOf(page, `${folder}/straight.png`);
+  await page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    const { theta, phi, radius, target } = view.view;
+    const turn = 0.7;
+    view.pack.rotation.y = turn;
+    const [x, y, z] = target;
+    const turned = [x * Math.cos(turn) + z * Math.sin(turn), y, z * Math.cos(turn) - x * Math.sin(turn)];
+    view.view = { theta: theta + turn, phi, radius, target: turned };
+    view.draw();
+  });
+  await settle(page);
+  await pictureOf(page, `${folder}/turned.png`);
+  const { mean } = differenceOf(`${folder}/straight.png`, `${folder}/turned.png`);
+  assert.ok(mean < ALIKE, `${mean}`);
+  assert.deepEqual(errors, []);
+});
+
+/** The light of the picture's pixels, of one channel, less what is beyond white. */
+const lightOf = (page) =>
+  page.evaluate(() => {
+    const view = document.querySelector('lightwell-view');
+    view.draw();
+    const gl = view.shadowRoot.querySelector('canvas').getContext('webgl2');
+    const pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+    gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return [...pixels].filter((_, i) => i % 4 === 1).map((byte) => (byte <= 10 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4));
+  });
+
+const METAL = { pbrMetallicRoughness: { metallicFactor: 1, roughnessFactor: 0.2, baseColorFactor: [0.9, 0.9, 0.9, 1] } };
+/** Two roundings to 8 bits, each at most half a step of sRGB, which is 0.0045 of white where its curve is steepest, and those of shares. */
+const ROUNDING = 0.012;
+/** The pixels at outlines, whose fragments are averaged as they are encoded. */
+const OUTLINES = 0.01;
+
+test('at rest the sky is dimmed without a new direction, what is matt and what mirrors alike', async (t) => {
+  const file = writeScene(`${folder}/two.gltf`, [
+    { mesh: sphere(0.4, 32), material: METAL, at: [-0.5, 0, 0] },
+    { mesh: sphere(0.4, 32), material: MATT, at: [0.5, 0, 0] },
+  ]);
+  const pack = bake(file, `${folder}/two.lw.glb`, { environment: SKY, 'sky-apart': true, grid: 'auto', 'target-error': 4 });
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/element.ts', { '/pack.lw.glb': pack });
+  await page.evaluate(() => {
+    const attributes = 'tone="none" exposure="-1" environment-background="none" style="position: fixed; inset: 0"';
+    document.body.innerHTML = `<lightwell-view src="pack.lw.glb" ${attributes}></lightwell-view>`;
+  });
+  await complete(page);
+  await settle(page);
+  const pictures = [];
+  for (const factor of [1, 0, 0.5]) {
+    const samples = await page.evaluate(async (of) => {
+      const { pack } = document.querySelector('lightwell-view');
+      const states = pack.grids.map(({ newest }) => newest);
+      pack.setSkyLight(of);
+      while (pack.grids.some(({ newest }, i) => newest === states[i])) await new Promise(requestAnimationFrame);
+      return pack.shadowSamples;
+    }, factor);
+    assert.equal(samples, Infinity);
+    pictures.push(await lightOf(page));
+  }
+  const [all, none, half] = pictures;
+  assert.ok(all.filter((light, i) => light > none[i] + 0.05).length > 1000, 'the sky shines');
+  const off = half.filter((light, i) => Math.abs(light - (all[i] + none[i]) / 2) > ROUNDING);
+  assert.ok(off.length < OUTLINES * half.length, `${off.length} pixels of ${half.length}`);
+  assert.deepEqual(errors, []);
+});
+
+test('an object that takes no shadows has the light of the open sky, whatever else is in the picture', async (t) => {
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.skyOnOwnObject);
+  const light = await page.evaluate(() => skyOnOwnObject(64));
+  assert.ok(Math.abs(light - Math.PI) < 0.01 * Math.PI, `${light}`);
+  assert.deepEqual(errors, []);
+});

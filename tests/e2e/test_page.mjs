@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { glslPlugin } from '../../web/glsl_plugin.mjs';
+import { textPlugins } from '../../web/text_plugins.mjs';
 import { openPage } from './browser.mjs';
 import { build, ROOT, WEB } from './dependencies.mjs';
 import { forTest } from './lifetime.mjs';
@@ -24,7 +24,7 @@ export async function bundle(path) {
     write: false,
     nodePaths: [`${WEB}node_modules`],
     alias: { 'lightwell/three': `${WEB}src/three/index.ts` },
-    plugins: [glslPlugin],
+    plugins: textPlugins,
   });
   return result.outputFiles[0].text;
 }

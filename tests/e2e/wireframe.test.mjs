@@ -24,6 +24,7 @@ async function toggle(t, renderer) {
     const steps = [];
     for (const wireframe of [true, false, true]) {
       globalThis.glRecord.reset();
+      view.toggleAttribute('wireframe', wireframe);
       await view.pack.setWireframe(wireframe);
       steps.push({ picture: view.toDataURL(), allocations: globalThis.glRecord.allocations });
     }

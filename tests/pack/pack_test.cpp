@@ -239,7 +239,7 @@ TEST(Opening, OfAPlainGlbIsRefused) {
   file.append(as_bytes("{      }"));
   const auto size = measure_opening(file.bytes());
   ASSERT_FALSE(size);
-  EXPECT_NE(size.error().message().find("not a pack"), std::string::npos);
+  EXPECT_NE(size.error().message().find("is no pack"), std::string::npos);
 }
 
 TEST(SelfContained, FindsReferences) {

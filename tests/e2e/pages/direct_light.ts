@@ -19,8 +19,9 @@ import {
 } from 'three';
 import { DirectLight } from '../../../web/src/three/direct/direct_light.js';
 import { DIRECT_KIT } from '../../../web/src/three/direct_kit.js';
-import type { LampDefinition } from '../../../web/src/three/extensions.js';
+import type { LampDefinition, LightGridDefinition } from '../../../web/src/three/extensions.js';
 import { FrameScheduler } from '../../../web/src/three/frame_scheduler.js';
+import { LightwellLight } from '../../../web/src/three/light.js';
 import type { Opening } from '../../../web/src/three/opening.js';
 
 type Triple = [number, number, number];
@@ -37,13 +38,25 @@ interface Lit {
   changes: number;
 }
 
-function light(definitions: LampDefinition[], objects: Object3D[]): Lit {
+/** A black grid of a pack whose sky is apart, and the one that is shown in its place. */
+function blackGrids(): LightwellLight[] {
+  const whole: LightGridDefinition = { stream: 0, min: [-2, -2, -2], cell: [4, 4, 4], nodes: [2, 2, 2], normalOffset: 0, contains: ['environment'] };
+  return [whole, { ...whole, stream: -1, contains: [], insteadOf: whole }].map((definition) => {
+    const atlas = { atlas: new Uint16Array(4 * 2 * 2 * 28), width: 2, height: 2, depth: 28 };
+    const [one, weights] = [0x3c00, 4 * 2 * 2 * 24];
+    atlas.atlas.fill(one, 0, 3);
+    for (let at = weights + 3; at < atlas.atlas.length; at += 4) atlas.atlas[at] = one;
+    return new LightwellLight(definition, atlas);
+  });
+}
+
+function light(definitions: LampDefinition[], objects: Object3D[], grids: LightwellLight[] = []): Lit {
   const opening = { gltf: { scene: new Group() }, meshesOf: () => [] } as unknown as Opening;
   opening.gltf.scene.userData['lightwell'] = { skyRadiance: [1, 1, 1] };
   const changed = () => void lit.changes++;
-  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, environment: undefined, grids: [], changed };
+  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, environment: undefined, grids, changed };
   const direct = new DirectLight(DIRECT_KIT, definitions, surroundings);
-  const lit: Lit = { direct, scene: new Scene().add(direct.hook, direct.carrier, ...direct.lamps, ...objects), changes: 0 };
+  const lit: Lit = { direct, scene: new Scene().add(direct.hook, direct.carrier, ...direct.lamps, ...grids.slice(0, 1), ...objects), changes: 0 };
   return lit;
 }
 
@@ -116,7 +129,7 @@ export async function penumbra(definition: LampDefinition, half: number, samples
 
 /** A sky of radiance 1 over a floor with a wall along z, 1 high: the irradiance of each pixel of a row from the wall on, `far` long. */
 export async function skyBesideWall(far: number, samples: number): Promise<number[]> {
-  const lit = light([{ kind: 'sky', radiance: [1, 1, 1] }], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])]);
+  const lit = light([], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])], blackGrids());
   const camera = rowCamera(far / 2);
   camera.position.x = far / 2;
   const width = 64;
@@ -124,6 +137,18 @@ export async function skyBesideWall(far: number, samples: number): Promise<numbe
   const row = rowOf(lit.scene, camera, width);
   lit.direct.dispose();
   return row;
+}
+
+/** A sky of radiance 1 over an object that takes no shadows and has another one above it: the irradiance of a pixel of it. */
+export async function skyOnOwnObject(samples: number): Promise<number> {
+  const own = surface(1, 1, [0, 0, 0], [0, 1, 0]);
+  own.receiveShadow = false;
+  const lit = light([], [own, surface(3, 3, [0, 1.5, 0], [0, 1, 0])], blackGrids());
+  const camera = rowCamera(0.1);
+  await settle(lit, camera, 8, samples);
+  const row = rowOf(lit.scene, camera, 8);
+  lit.direct.dispose();
+  return row[4]!;
 }
 
 /** The floor seen from above, when its front looks down. */
@@ -165,4 +190,4 @@ export function ownObject(definition: LampDefinition): number[] {
   return values;
 }
 
-Object.assign(globalThis, { skyBesideWall, scaled, ownObject, irradiance, penumbra, fromBehind });
+Object.assign(globalThis, { skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, penumbra, fromBehind });

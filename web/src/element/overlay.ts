@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { Share } from '../core/protocol.js';
+import style from './overlay.css';
 
-const STYLE = `
-:host { display: block; position: relative; min-width: 1px; min-height: 150px; contain: content; }
-:host([hidden]), [hidden] { display: none !important; }
-canvas, img { position: absolute; inset: 0; width: 100%; height: 100%; outline-offset: -2px; }
-.poster { object-fit: cover; transition: opacity 0.4s; }
-.gone { opacity: 0; pointer-events: none; }
-div { position: absolute; inset: auto 0 0; }
-.bar { height: 3px; background: #8884; }
-.bar i { display: block; height: 100%; background: #e8a33d; }
-.message { padding: 8px 12px; background: #fffe; color: #222; font: 14px/1.4 system-ui; overflow-wrap: anywhere; }
-`;
 let sheet: CSSStyleSheet | undefined;
 
 /** What an element has over its picture: a poster before it, how much has come, and what went wrong. */
@@ -28,7 +18,7 @@ export class Overlay {
     this.#root = root;
     // A page's content security policy may forbid styles in the text of a document.
     sheet ??= new CSSStyleSheet();
-    sheet.replaceSync(STYLE);
+    sheet.replaceSync(style);
     root.adoptedStyleSheets = [sheet];
     this.#bar.role = 'progressbar';
     this.#bar.append(make('i'));

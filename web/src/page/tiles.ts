@@ -13,8 +13,8 @@ const STYLE = `
 `;
 
 /**
- * A tile for each pack of the list, with its picture from when it was shown last, which this browser alone keeps, by the packs' URLs. Those
- * that were never shown are looked at for a moment, once the first pack is complete. The page fetches this script when its first pack of
+ * A tile for each pack of the list, with its picture from when it was shown last, which this browser alone keeps, by the packs' URLs. Of
+ * those that were never shown it is their first picture, once the first pack is complete and the tile can be seen. The page fetches this script when its first pack of
  * several is there: it imports nothing that the page has.
  */
 export function bindTiles(view: LightwellView, select: HTMLSelectElement, packs: { url: string }[]): void {
@@ -39,15 +39,16 @@ export function bindTiles(view: LightwellView, select: HTMLSelectElement, packs:
     store(keys[index]!, picture);
     tiles[index]!.querySelector('img, i')!.replaceWith(pictureOf(picture));
   };
-  let begun = false;
-  const keep = async () => {
+  const isPlain = (index: number) => tiles[index]!.querySelector('img') === null;
+  let begun = savesData();
+  const keep = () => {
     show(select.selectedIndex, shrink(view));
-    if (begun || savesData()) return;
+    if (begun) return;
     begun = true;
-    for (const [index, { url }] of packs.entries()) {
-      const picture = tiles[index]!.querySelector('img') === null && (await firstPicture(tiles[index]!, url));
-      if (picture) show(index, picture);
-    }
+    packs.forEach(async ({ url }, index) => {
+      const picture = isPlain(index) ? await firstPicture(tiles[index]!, url) : null;
+      if (picture !== null && isPlain(index)) show(index, picture);
+    });
   };
   select.addEventListener('change', mark);
   view.on('load', mark);
@@ -64,14 +65,16 @@ async function firstPicture(tile: HTMLElement, url: string): Promise<string | nu
   view.inert = true;
   view.setAttribute('loading', 'lazy');
   view.setAttribute('src', url);
-  const picture = new Promise<string | null>((resolve) => {
-    view.on('load', () => resolve(shrink(view)));
-    view.on('error', () => resolve(null));
+  const loaded = new Promise<boolean>((resolve) => {
+    view.on('load', () => resolve(true));
+    view.on('error', () => resolve(false));
   });
   tile.prepend(view);
-  await picture;
-  view.remove();
-  return picture;
+  try {
+    return (await loaded) ? shrink(view) : null;
+  } finally {
+    view.remove();
+  }
 }
 
 /** A plain one where there is no picture. */

@@ -37,7 +37,7 @@ import {
 } from 'three';
 
 /**
- * What the script of the lamps takes of three.js. It is fetched for packs with lamps and may import nothing that others have
+ * What the script of the lamps takes of three.js. It is fetched for packs with lamps, or with a sky that is apart, and may import nothing that others have
  * (docs/decisions/008-size-of-the-page.md).
  */
 export const DIRECT_KIT = {

@@ -13,8 +13,8 @@ import {
 import type { LightGridDefinition } from './extensions.js';
 import { installLightChunks } from './shader_chunks.js';
 
-/** 0 to 3 as half floats. */
-const HALVES = [0, 0x3c00, 0x4000, 0x4200];
+/** 0 to 7 as half floats. */
+const HALVES = [0, 0x3c00, 0x4000, 0x4200, 0x4400, 0x4500, 0x4600, 0x4700];
 
 /** How the light between nodes is found: `tricubic` has no creases on the borders of cells, takes eight times the fetches, and leaks more. */
 export type LightLookup = 'trilinear' | 'tricubic';
@@ -85,7 +85,8 @@ export interface LightAtlas {
 
 /**
  * A filtered texture of a grid's texels, with marks in the second one, which no lookup filters: whether the grid holds the light
- * of the environment (1); the shader then leaves out the diffuse part of `scene.environment`; and whether lookups are tricubic (2).
+ * of the environment (1); the shader then leaves out the diffuse part of `scene.environment`; whether lookups are tricubic (2); and whether
+ * the sky shines beside it as a lamp (4).
  * Throws when their number is wrong.
  */
 export function atlasTexture(
@@ -95,7 +96,7 @@ export function atlasTexture(
   if (atlas.length !== 4 * width * height * depth)
     throw new Error(`the light of stream ${definition.stream} has another size than its texture`);
   const environment = definition.contains?.includes('environment') === true;
-  atlas[4] = HALVES[(environment ? 1 : 0) + (lookup === 'tricubic' ? 2 : 0)]!;
+  atlas[4] = HALVES[(environment ? 1 : 0) + (lookup === 'tricubic' ? 2 : 0) + (definition.insteadOf ? 4 : 0)]!;
   const texture = new Data3DTexture(atlas, width, height, depth);
   texture.format = RGBAFormat;
   texture.type = HalfFloatType;

@@ -50,26 +50,34 @@ export class LightGroups {
     return this.#factors.has(SKY);
   }
 
-  /** The grids that are looked up; behind those, of each that has the sky's own light apart, one without it. */
+  /** The grids that are looked up; behind those, where the sky's own light is apart, one without it, of what the pack is about. */
   get definitions(): LightGridDefinition[] {
-    return [...this.#sums.map(({ definition }) => definition), ...this.#sums.flatMap((sum) => sum.withoutSky ?? [])];
+    return [...this.#sums.map(({ definition }) => definition), ...this.#sums.flatMap((sum) => this.#withoutSky(sum) ?? [])];
   }
 
   states(): LightEvent[] {
-    return [...this.#sums.map((sum) => sum.state(this.#factors)), ...this.#sums.flatMap((sum) => this.#withoutSky(sum))];
+    return this.#sums.map((sum) => sum.state(this.#factors)).concat(this.#sums.flatMap((sum) => this.#stateWithoutSky(sum)));
   }
 
   /** A newer state of a group's grid; gives those of the grids that are looked up. */
   receive(event: LightEvent): LightEvent[] {
     const sum = this.#sumOf.get(event.asset)!;
     sum.receive(event);
-    return [sum.state(this.#factors), ...this.#withoutSky(sum)];
+    return [sum.state(this.#factors), ...this.#stateWithoutSky(sum)];
   }
 
-  #withoutSky(sum: SummedGrid): LightEvent[] {
-    if (sum.withoutSky === null) return [];
-    const state = sum.state(new Map([...this.#factors, [SKY, [0, 0, 0]]]));
-    return [{ ...state, asset: sum.withoutSky.stream }];
+  /** Shadows are drawn of what the pack is about: around that the grid goes on to have the sky's light. */
+  #withoutSky({ definition, namesOfSky }: SummedGrid): LightGridDefinition | null {
+    const highest = Math.max(...this.#sums.map((sum) => sum.definition.priority ?? 0));
+    if (namesOfSky.length === 0 || (definition.priority ?? 0) < highest) return null;
+    const contains = definition.contains!.filter((what) => what !== 'environment');
+    return { ...definition, stream: -1 - definition.stream, insteadOf: definition, contains };
+  }
+
+  #stateWithoutSky(sum: SummedGrid): LightEvent[] {
+    const without = this.#withoutSky(sum);
+    if (without === null) return [];
+    return [{ ...sum.state(new Map([...this.#factors, [SKY, [0, 0, 0]]])), asset: without.stream }];
   }
 
   /** The grids of all groups matter as much as the one that is looked up. */
@@ -99,8 +107,9 @@ export class LightGroups {
 
   /** As a lamp the sky has the factors of its grid. */
   #tintSky(lamps: Lamp[]): void {
-    const ofSky = this.#sums.flatMap(({ namesOfSky }) => namesOfSky).map((name) => this.#factors.get(name)!);
-    const of = product(ofSky);
+    // Of several places the sums have the same parts.
+    const names = this.#sums.map(({ namesOfSky }) => namesOfSky).find(({ length }) => length > 0) ?? [];
+    const of = product(names.map((name) => this.#factors.get(name)!));
     for (const lamp of lamps) if (lamp.definition.kind === 'sky') tint(lamp.color, this.#lampColors, lamp, of);
   }
 
@@ -160,13 +169,6 @@ class SummedGrid {
   /** What multiplies the sky's own light, where that is apart. */
   get namesOfSky(): string[] {
     return [...this.#parts.values()].map(({ names }) => names).find((names) => names.includes(SKY)) ?? [];
-  }
-
-  /** Such a grid of all but the sky's own light, where that is apart. */
-  get withoutSky(): LightGridDefinition | null {
-    if (this.namesOfSky.length === 0) return null;
-    const { definition } = this;
-    return { ...definition, stream: -1 - definition.stream, insteadOf: definition, contains: definition.contains!.filter((what) => what !== 'environment') };
   }
 
   fits({ min, cell, nodes, priority = 0 }: LightGridDefinition): boolean {

@@ -80,7 +80,7 @@ type Images = Map<number, TextureRefinement | Environment>;
 export class LightwellScene extends Group<LightwellSceneEventMap> {
   /** The baked light. Objects of the user's own within its bounds are lit by it. */
   readonly grids: LightwellLight[];
-  /** The lamps that shine directly. */
+  /** The lamps that shine directly, and the sky where its light is apart. */
   readonly lamps: Lamp[] = [];
   readonly opening: Opening;
   /** Stops of exposure that the baker chose. */
@@ -213,10 +213,10 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   /**
    * Shows the triangles' edges. A browser with WEBGL_polygon_mode does so at once and without further memory. In another the
-   * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face. Resolves when they are shown.
+   * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face. Resolves when what can be shown so is.
    */
   async setWireframe(wireframe: boolean): Promise<void> {
-    if (wireframe === this.#wireframe) return;
+    if (!wireframe && !this.#wireframe) return;
     this.#wireframe = wireframe;
     await this.#showEdges();
   }

@@ -105,6 +105,9 @@ export class DirectLight {
   /** Of the picture that the sky was made of. */
   #skyVersion = -1;
   #root: Object3D | null = null;
+  /** Of the present view, whose surfaces are drawn when somebody asks for them. */
+  #camera: Camera | null = null;
+  #surfacesStale = true;
   #signature = NaN;
   #seenStale = true;
   #mapsTime = -Infinity;
@@ -122,14 +125,16 @@ export class DirectLight {
     this.#surroundings = surroundings;
     const { renderer, scheduler } = surroundings;
     letLampsThrough(definitions, surroundings.opening, surroundings.focus);
-    this.lamps = [...definitions, ...(surroundings.grids.some(({ definition }) => definition.insteadOf) ? [SKY] : [])].map(createLamp);
+    const { grids, opening, environment } = surroundings;
+    const skyShines = grids.some(({ definition }) => definition.insteadOf) && Sky.isKnown(opening, environment?.texture);
+    this.lamps = [...definitions, ...(skyShines ? [SKY] : [])].map(createLamp);
     this.#floats = renderer.extensions.has('EXT_color_buffer_float');
     this.#surfaces = new Surfaces(renderer);
     const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
     this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
-    const sky = this.lamps.some(isSky);
-    this.#shares = new ScreenShares(this.lamps.length + (sky ? 2 : 0), width);
-    const size = this.lamps.length > FEW_LAMPS ? 2 : 1;
+    // Each colour of the sky, the last lamp, has a share of its own.
+    this.#shares = new ScreenShares(this.lamps.length + (this.lamps.some(isSky) ? 2 : 0), width);
+    const size = definitions.length > FEW_LAMPS ? 2 : 1;
     this.#shadows = this.lamps.map((lamp) => {
       const middle = new ShadowMap(hasPicture(lamp), sizeOf(lamp) / size);
       return { lamp, middle, form: null, count: -1 };
@@ -194,9 +199,11 @@ export class DirectLight {
     for (const part of [this.#surfaces, this.#shares, this.#table, this.carrier, geometry, material]) part.dispose();
   }
 
+  /** Those whose light is seen; the sky is a lamp only where it has soft shadows. */
   #shining(): Shadow[] {
     const shines = ({ visible, intensity, color }: Lamp) => visible && intensity * Math.max(color.r, color.g, color.b) > 0;
-    return this.#shadows.filter(({ lamp }) => shines(lamp));
+    const soft = this.#floats && this.#kind === 'soft';
+    return this.#shadows.filter(({ lamp }) => shines(lamp) && (soft || !isSky(lamp)));
   }
 
   #enough({ lamp: { definition } }: Shadow): number {
@@ -214,7 +221,7 @@ export class DirectLight {
     const shining = this.#shining();
     const shadowed = this.#floats && this.#kind !== 'off' && shining.length > 0 && !('isArrayCamera' in camera);
     if (this.#floats) {
-      const viewport = this.#shares.see(renderer, camera);
+      const viewport = shining.length > 0 && this.#shares.see(renderer, camera);
       this.#drawing = true;
       aside(renderer, () => {
         if (shadowed) this.#look(camera, shining, viewport);
@@ -240,13 +247,19 @@ export class DirectLight {
     }
   }
 
-  /** As its picture is now, which gets sharper. */
-  #skyNow(): Sky {
-    const picture = this.#surroundings.environment?.texture;
-    const version = picture?.version ?? 0;
-    if (this.#sky === null || version !== this.#skyVersion) this.#sky = Sky.of(this.#surroundings.opening, picture);
+  /** Takes the sky as its picture is now, which gets sharper; says whether it is another than before. */
+  #renewSky(): boolean {
+    const { opening, environment } = this.#surroundings;
+    const version = environment?.texture.version ?? 0;
+    if (this.#sky !== null && version === this.#skyVersion) return false;
+    this.#sky = Sky.of(opening, environment?.texture);
     this.#skyVersion = version;
-    return this.#sky;
+    return true;
+  }
+
+  /** From the pack's axes into the world's. */
+  #turn(): Matrix4 {
+    return new three.Matrix4().extractRotation(this.hook.matrixWorld);
   }
 
   /** Looks the kept maps up where the view, what is seen, or the map is another than before. */
@@ -259,19 +272,20 @@ export class DirectLight {
       this.#seenStale = true;
     }
     this.#signature = signature;
+    this.#camera = camera;
     if (moved || this.#seenStale) {
-      this.#shares.drawSurfaces(this.#surfaces, root, camera);
       for (const shadow of this.#shadows) shadow.count = -1;
+      this.#surfacesStale = true;
       this.#seenStale = false;
     }
     for (const shadow of shining) {
       const form = placed(shadow.lamp);
       const now = formOf(form);
       if (isSky(shadow.lamp)) {
-        const sky = this.#sky;
-        if (shadow.form === null || sky !== this.#skyNow()) Object.assign(shadow, { form: now, count: -1 });
-        shadow.count = Math.max(0, shadow.count);
-        if (this.#enough(shadow) > 0) this.#scratchMap(shadow.lamp);
+        const isNew = this.#renewSky();
+        if (shadow.form === null || isNew) this.#mapsTime = performance.now();
+        if (shadow.form === null || isNew || shadow.count < 0) Object.assign(shadow, { form: now, count: 0 });
+        this.#scratchMap(shadow.lamp);
         continue;
       }
       if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
@@ -281,6 +295,7 @@ export class DirectLight {
       }
       if (this.#enough(shadow) > 0) this.#scratchMap(shadow.lamp);
       if (shadow.count >= 0) continue;
+      this.#drawSurfaces();
       this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
       shadow.count = 0;
       this.#showStale = true;
@@ -289,6 +304,12 @@ export class DirectLight {
     this.#showStale = false;
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
     else if (!this.#paused && this.samples < Infinity) this.#task.request();
+  }
+
+  /** What the present view shows, unless that is drawn. */
+  #drawSurfaces(): void {
+    if (this.#surfacesStale) this.#shares.drawSurfaces(this.#surfaces, this.#root!, this.#camera!);
+    this.#surfacesStale = false;
   }
 
   /** Whether two cameras draw one after the other, for ever: a picture that a refinement asked for would undo it. */
@@ -328,9 +349,9 @@ export class DirectLight {
 
   /** The irradiance of the sky, by normals in the camera's space. */
   #skyTexels(view: Matrix4): number[] {
-    const turn = new three.Matrix4().extractRotation(view.clone().multiply(this.hook.matrixWorld));
+    const turn = new three.Matrix4().extractRotation(view).multiply(this.#turn());
     const back = turn.clone().transpose();
-    return this.#skyNow().irradiance.flatMap((matrix) => turn.clone().multiply(matrix).multiply(back).toArray());
+    return this.#sky!.irradiance.flatMap((matrix) => turn.clone().multiply(matrix).multiply(back).toArray());
   }
 
   /** Adds samples of the lamps that have fewest. */
@@ -370,7 +391,8 @@ export class DirectLight {
     const { renderer } = this.#surroundings;
     const map = this.#scratchMap(shadow.lamp);
     const form = placed(shadow.lamp);
-    this.#drawMap(map, form, isSky(shadow.lamp) ? skyPointOf(form, this.#skyNow(), shadow.count) : pointOf(form, shadow.count));
+    this.#drawSurfaces();
+    this.#drawMap(map, form, isSky(shadow.lamp) ? skyPointOf(this.#sky!, this.#turn(), shadow.count) : pointOf(form, shadow.count));
     const share = this.#shadows.indexOf(shadow);
     const { color = [1] } = map.point;
     color.forEach((strength, channel) => this.#shares.add(renderer, share + channel, map, shadow.count === 0, false, strength));

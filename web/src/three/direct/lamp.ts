@@ -5,7 +5,8 @@ import { three } from './kit.js';
 
 /**
  * A lamp of a pack, as LIGHTWELL_lamps describes it. It may be moved, turned, hidden, and given another `color` or `intensity`, whose
- * product is its radiance or intensity.
+ * product is its radiance or intensity. A sky stands and turns with its pack: its color and intensity multiply its light, and where it is hidden the
+ * grids have its light.
  */
 export type Lamp = Light & { readonly definition: LampDefinition };
 

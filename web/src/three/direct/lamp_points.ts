@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Vector3 } from 'three';
+import type { Matrix4, Vector3 } from 'three';
 import { three } from './kit.js';
 import type { PlacedLamp } from './lamp.js';
 import type { Sky } from './sky.js';
@@ -51,11 +51,11 @@ export function pointOf(placed: PlacedLamp, index: number): LampPoint {
   return { position, normal, bothSides: definition.twoSided === true, axes };
 }
 
-/** The direction of a number from 0 on, from which a picture of the sky's light is drawn: where `placed` stands is the pack. */
-export function skyPointOf(placed: PlacedLamp, sky: Sky, index: number): LampPoint {
+/** The direction of a number from 0 on, from which a picture of the sky's light is drawn; `turn` is the pack's. */
+export function skyPointOf(sky: Sky, turn: Matrix4, index: number): LampPoint {
   const { direction, color } = sky.sampleOf(...squareOf(index));
-  const front = direction.negate().transformDirection(placed.lamp.matrixWorld);
-  return { position: placed.position, color, normal: new three.Vector3(), bothSides: true, axes: axesOf(front, index, 0, 0) };
+  const front = direction.negate().applyMatrix4(turn);
+  return { position: new three.Vector3(), color, normal: new three.Vector3(), bothSides: true, axes: axesOf(front, index, 0, 0) };
 }
 
 /** The point of a number in the unit square. */

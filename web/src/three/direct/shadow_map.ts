@@ -52,7 +52,7 @@ export class ShadowMap {
   draw(surfaces: Surfaces, root: Object3D, placed: PlacedLamp, point: LampPoint, bounds: Sphere, focus: Sphere): void {
     this.point = point;
     surfaces.draw(root, 'casters', (render) => {
-      if (this.sun) this.#drawSun(surfaces, focus, render);
+      if (this.sun) this.#drawSun(surfaces, bounds, focus, render);
       else this.#drawCube(surfaces, placed, bounds, focus, render);
     });
   }
@@ -75,13 +75,15 @@ export class ShadowMap {
     }
   }
 
-  #drawSun(surfaces: Surfaces, focus: Sphere, render: Render): void {
+  /** As deep as all that may stand in the way of the light. */
+  #drawSun(surfaces: Surfaces, bounds: Sphere, focus: Sphere, render: Render): void {
     const [right, up, front] = this.point.axes;
     const { radius, center } = focus;
-    this.range = [radius, 2 * radius];
+    const depth = Math.max(2 * radius, center.distanceTo(bounds.center) + bounds.radius);
+    this.range = [radius, depth];
     this.center = center;
-    const camera = new three.OrthographicCamera(-radius, radius, radius, -radius, 0, 4 * radius);
-    this.#aim(camera, right, up, front.clone().negate(), center.clone().addScaledVector(front, -2 * radius));
+    const camera = new three.OrthographicCamera(-radius, radius, radius, -radius, 0, 2 * depth);
+    this.#aim(camera, right, up, front.clone().negate(), center.clone().addScaledVector(front, -depth));
     this.#show(surfaces, 0, 0);
     render(camera);
   }

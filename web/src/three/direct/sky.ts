@@ -4,7 +4,7 @@ import { halfValues } from '../half.js';
 import type { Opening } from '../opening.js';
 import { three } from './kit.js';
 
-/** Of the table of radiance that directions are drawn from, at most. */
+/** Of the table of radiance that directions are drawn from. */
 const COLUMNS = 64;
 const ROWS = 32;
 const LUMINANCE = [0.2126, 0.7152, 0.0722] as const;
@@ -37,12 +37,16 @@ export class Sky {
     this.#rows = uniform ? null : runningSums(this.#columns.map((row) => row.at(-1)!));
   }
 
+  /** Whether a pack tells of its sky: one may have the light of a picture that it does not hold. */
+  static isKnown(opening: Opening, picture: DataTexture | undefined): boolean {
+    return picture !== undefined || notedRadiance(opening) !== null;
+  }
+
   /** `picture`: of the surroundings, half floats as three.js has them. Without one the sky is as the scene notes it: the same everywhere. */
   static of(opening: Opening, picture: DataTexture | undefined): Sky {
     if (picture !== undefined) return new Sky(cellsOf(picture), false);
-    const noted = opening.gltf.scene.userData['lightwell']?.skyRadiance;
-    const radiance: Triple = Array.isArray(noted) && noted.length === 3 && noted.every(Number.isFinite) ? (noted as Triple) : [0, 0, 0];
-    return new Sky(cellsFrom(COLUMNS, ROWS, () => radiance), true);
+    const radiance = notedRadiance(opening) ?? [0, 0, 0];
+    return new Sky(cellsFrom(() => radiance), true);
   }
 
   /**
@@ -56,8 +60,20 @@ export class Sky {
     const column = find(this.#columns[y]!, b);
     const cell = this.#cells[y]![Math.floor(column)]!;
     const color = cell.radiance.map((channel) => channel / luminanceOf(cell)) as Triple;
-    return { direction: direction(column / this.#cells[0]!.length, 1 - row / this.#cells.length), color };
+    const [below, above] = heightsOf(y);
+    return { direction: direction(column / COLUMNS, Math.acos(below + (row - y) * (above - below)) / Math.PI), color };
   }
+}
+
+/** The radiance that the scene says its sky has everywhere (extras.lightwell.skyRadiance), if it does. */
+function notedRadiance({ gltf }: Opening): Triple | null {
+  const noted: unknown = gltf.scene.userData['lightwell']?.skyRadiance;
+  return Array.isArray(noted) && noted.length === 3 && noted.every(Number.isFinite) ? (noted as Triple) : null;
+}
+
+/** The heights of a row's lower and upper edge on a sphere of radius 1. */
+function heightsOf(row: number): [number, number] {
+  return [-Math.cos((Math.PI * row) / ROWS), -Math.cos((Math.PI * (row + 1)) / ROWS)];
 }
 
 /** `u` around from -x over -z, `v` from up to down, as parts of all. */
@@ -71,28 +87,28 @@ function luminanceOf({ radiance }: Cell): number {
 }
 
 /** Rows from below, as a texture has them. */
-function cellsFrom(columns: number, rows: number, radianceOf: (column: number, row: number) => Triple): Cell[][] {
-  return Array.from({ length: rows }, (_, row) => {
-    const [top, bottom] = [Math.PI * (1 - (row + 1) / rows), Math.PI * (1 - row / rows)];
-    const solidAngle = ((2 * Math.PI) / columns) * (Math.cos(top) - Math.cos(bottom));
-    return Array.from({ length: columns }, (_, column) => ({
-      direction: direction((column + 0.5) / columns, 1 - (row + 0.5) / rows),
+function cellsFrom(radianceOf: (column: number, row: number) => Triple): Cell[][] {
+  return Array.from({ length: ROWS }, (_, row) => {
+    const [below, above] = heightsOf(row);
+    const solidAngle = ((2 * Math.PI) / COLUMNS) * (above - below);
+    return Array.from({ length: COLUMNS }, (_, column) => ({
+      direction: direction((column + 0.5) / COLUMNS, Math.acos((below + above) / 2) / Math.PI),
       radiance: radianceOf(column, row),
       solidAngle,
     }));
   });
 }
 
-/** Means of the picture's pixels. */
+/** Means of the picture's pixels, or those again and again. */
 function cellsOf({ image }: DataTexture): Cell[][] {
   const { width, height } = image;
   const texels = image.data as Uint16Array;
   const halves = halfValues();
-  const [columns, rows] = [Math.min(COLUMNS, width), Math.min(ROWS, height)];
-  return cellsFrom(columns, rows, (column, row) => {
+  return cellsFrom((column, row) => {
     const sum: Triple = [0, 0, 0];
-    const [x0, x1] = [column, column + 1].map((i) => Math.floor((i * width) / columns)) as [number, number];
-    const [y0, y1] = [row, row + 1].map((i) => Math.floor((i * height) / rows)) as [number, number];
+    const [x0, y0] = [Math.floor((column * width) / COLUMNS), Math.floor((row * height) / ROWS)];
+    const x1 = Math.max(x0 + 1, Math.floor(((column + 1) * width) / COLUMNS));
+    const y1 = Math.max(y0 + 1, Math.floor(((row + 1) * height) / ROWS));
     for (let y = y0; y < y1; y++)
       for (let x = x0; x < x1; x++) for (let c = 0; c < 3; c++) sum[c]! += halves[texels[4 * (y * width + x) + c]!]!;
     return sum.map((channel) => channel / ((x1 - x0) * (y1 - y0))) as Triple;

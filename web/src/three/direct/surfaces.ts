@@ -52,10 +52,11 @@ export class Surfaces {
 
   #materialOf(mesh: Mesh, of: Material, part: Part): Material {
     const { transparent, transmission = 0, visible } = of as Material & { transmission?: number };
-    const drawn = part === 'casters' ? mesh.castShadow : !transparent && transmission === 0;
+    const drawn = transmission === 0 && (part === 'casters' ? mesh.castShadow : !transparent);
     if (!mesh.isMesh || !visible || !drawn) return this.#hidden;
     const key = part === 'casters' ? part : `${of.side}`;
-    const cut = of.alphaTest > 0 || of.alphaHash;
+    // What is seen through casts a share of a shadow: some of its places do.
+    const cut = of.alphaTest > 0 || of.alphaHash || transparent;
     let known = this.#plain;
     if (cut) {
       known = this.#cutOut.get(of) ?? new Map<string, Material>();
@@ -64,8 +65,8 @@ export class Surfaces {
     const material = known.get(key) ?? this.#create(part, part === 'casters' ? three.DoubleSide : of.side);
     known.set(key, material);
     if (cut) {
-      const { map, alphaMap, alphaTest, alphaHash } = of as MeshStandardMaterial;
-      Object.assign(material, { map, alphaMap, alphaTest, alphaHash });
+      const { map, alphaMap, alphaTest, opacity } = of as MeshStandardMaterial;
+      Object.assign(material, { map, alphaMap, alphaTest, opacity, alphaHash: of.alphaHash || transparent });
     }
     return material;
   }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import { readFile } from 'node:fs/promises';
+import { transform } from 'esbuild';
 
 /** A line without spaces where GLSL needs none; those of the preprocessor stay as they are. */
 const tighten = (line) => (line.startsWith('#') ? line : line.replace(/ *([-+*/=<>!&|?:;,(){}[\]]) */g, '$1'));
 
 /** For esbuild: shader text without comments, indentation, empty lines and needless spaces; statements stand in one line. */
-export const glslPlugin = {
+const glsl = {
   name: 'glsl',
   setup(builder) {
     builder.onLoad({ filter: /\.glsl$/ }, async ({ path }) => {
@@ -14,3 +15,17 @@ export const glslPlugin = {
     });
   },
 };
+
+/** For esbuild: the element's style sheet, shortened. */
+const css = {
+  name: 'css',
+  setup(builder) {
+    builder.onLoad({ filter: /[/\\]element[/\\][^/\\]*\.css$/ }, async ({ path }) => {
+      const { code } = await transform(await readFile(path, 'utf8'), { loader: 'css', minify: true });
+      return { contents: code.trim(), loader: 'text' };
+    });
+  },
+};
+
+/** What scripts import as text. */
+export const textPlugins = [glsl, css];
