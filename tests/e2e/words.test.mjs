@@ -70,10 +70,10 @@ test('words of the page’s own take the place of the message, and are hidden un
 
 test('the message goes when another pack is shown', async (t) => {
   const { page } = await openElement(t, '<lightwell-view src="unbaked.glb"></lightwell-view>');
-  await text(page, 'not a pack').waitFor();
+  await text(page, 'is no pack').waitFor();
   await page.evaluate(() => document.querySelector('lightwell-view').setAttribute('src', 'room.lw.glb'));
   await complete(page);
-  assert.equal(await text(page, 'not a pack').count(), 0);
+  assert.equal(await text(page, 'is no pack').count(), 0);
 });
 
 test('a bar tells how much has come, and goes when that is all', async (t) => {
