@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace speed truth estimators peer real look leaks curve mesh light fetch server sizes frame growth direct)
+parts=(bake trace speed truth estimators peer real look leaks curve mesh light fetch server sizes frame growth direct sky)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -240,6 +240,22 @@ bench_growth() {
 bench_direct() {
   command -v chromium >/dev/null || { missing chromium; return; }
   show node bench/direct_light.mjs "$(built_in box-small)"
+}
+
+# What stands and what is scanned under a sky: by the grid alone, and with the sky as a lamp.
+bench_sky() {
+  command -v chromium >/dev/null || { missing chromium; return; }
+  [ -d "$shared/data" ] || { missing "$shared/data"; return; }
+  local name options
+  while read -r name options; do
+    # shellcheck disable=SC2086 # these are options
+    show "$lightwell" bake "$shared/data/$name" --sky-apart $options -o "$out/sky.lw.glb" --quiet >"$out/sky.txt" </dev/null
+    show node bench/sky_lamp.mjs "$out/sky.lw.glb" </dev/null
+  done <<SCENES
+objects/chess-board.glb --environment 1,1,1
+scans/lucy-100k.ply --up z --environment 1,1,1
+objects/spot.obj --environment $shared/data/hdr/qwantani_afternoon_puresky_1k.hdr
+SCENES
 }
 
 mkdir -p "$out"
