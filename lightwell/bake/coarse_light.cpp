@@ -100,16 +100,19 @@ bool BestGrid::consider(const AdaptiveLight& light, std::span<const NodeRule> wa
   return better;
 }
 
-CoarseLight::CoarseLight(const Place& place, const EstimatorOptions& options, SurfaceCache cache, float cell)
-    : estimator_(options),
+CoarseLight::CoarseLight(const Place& place, const LightBakeOptions& options, SurfaceCache cache, float cell)
+    : estimator_(options.estimator),
       cache_(std::move(cache)),
       cell_(cell),
       scene_{place.world, place.space, cache_, place.box},
       light_(scene_, estimator_),
-      testing_{.free_points = 250, .seed = ~options.seed, .threads = options.threads},
+      testing_{.free_points = 250, .seed = ~estimator_.seed, .threads = estimator_.threads},
       best_(test_),
       rays_(cache_.rays()) {
-  testing_.rays = scaled(testing_.rays, options.effort);
+  testing_.rays = scaled(testing_.rays, estimator_.effort);
+  if (options.beside == LuminaireSet()) return;
+  const EstimatorOptions straight{.seed = estimator_.seed, .contained = options.beside, .reflected = false};
+  testing_.beside = &beside_.emplace(scene_, straight);
 }
 
 Result<std::unique_ptr<CoarseLight>> CoarseLight::gather(const Place& place, const LightBakeOptions& options,
@@ -119,7 +122,7 @@ Result<std::unique_ptr<CoarseLight>> CoarseLight::gather(const Place& place, con
   LW_TRY(shapes, place_nodes(place, effort));
   const float cell = max_component(shapes.front().cell) / static_cast<float>(effort.adaptive ? 6 : 3);
   LW_TRY(cache, light_surfaces(place, shapes.front(), cell, with_effort.estimator, progress));
-  std::unique_ptr<CoarseLight> coarse(new CoarseLight(place, with_effort.estimator, std::move(cache), cell));
+  std::unique_ptr<CoarseLight> coarse(new CoarseLight(place, with_effort, std::move(cache), cell));
   LW_TRY(test, TestPoints::gather(coarse->light_, coarse->testing_, progress));
   coarse->test_ = std::move(test);
   for (const GridShape& shape : shapes) {

@@ -85,6 +85,7 @@ class CoarseLight {
   /// Others depend on these by reference.
   CoarseLight(const CoarseLight&) = delete;
 
+  const BakeScene& scene() const { return scene_; }
   const GatheredLight& light() const { return light_; }
   /// Options of points like those by which the grid was chosen.
   const TestPointOptions& testing() const { return testing_; }
@@ -95,13 +96,14 @@ class CoarseLight {
   uint64_t rays() const { return rays_; }
 
  private:
-  CoarseLight(const Place& place, const EstimatorOptions& options, SurfaceCache cache, float cell);
+  CoarseLight(const Place& place, const LightBakeOptions& options, SurfaceCache cache, float cell);
 
   EstimatorOptions estimator_;
   SurfaceCache cache_;
   float cell_;
   BakeScene scene_;
   GatheredLight light_;
+  std::optional<GatheredLight> beside_;  // of LightBakeOptions::beside
   TestPointOptions testing_;
   TestPoints test_;
   BestGrid best_;

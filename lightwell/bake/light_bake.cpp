@@ -25,17 +25,29 @@ constexpr float most_noise = 0.02f;
 /// What a grid covers: all that there is, the focus of the scene, or what lies around that.
 enum class Extent { whole, focus, surroundings };
 
-/// When a grid's cells are to be divided no further, for all to be done by `end`: its light is gathered again for each
-/// of several parts, which takes as long each time.
-Clock::time_point deadline_of(Clock::time_point end, int parts, Extent extent) {
+/// When a grid's cells are to be divided no further, for all to be done by `end`: its light is gathered `again` so many
+/// times, which takes as long each time.
+Clock::time_point deadline_of(Clock::time_point end, int again, Extent extent) {
   const Clock::time_point now = Clock::now();
   Clock::duration left = end - now;
   if (extent == Extent::focus) left -= left / share_of_surroundings;
-  return now + (parts > 1 ? left / (1 + parts) : left);
+  return now + left / (1 + again);
 }
 
-/// What a grid over an extent may take. `start`: of the whole bake; `parts`: of its light.
-Effort effort_of(const LightBakeOptions& options, Clock::time_point start, int parts, Extent extent) {
+/// Options of the grid that is divided, whose nodes all parts have: a sky apart is found by the client beside it, more
+/// finely than by any grid, and its own grid takes the other half of the bytes.
+LightBakeOptions of_divided(const LightBakeOptions& options, const World& world) {
+  LightBakeOptions divided = options;
+  const int sky = world.lights().environment_luminaire();
+  if (!options.sky_apart || !options.estimator.contained.contains(sky)) return divided;
+  divided.estimator.contained.erase(sky);
+  divided.beside.insert(sky);
+  divided.most_bytes /= 2;
+  return divided;
+}
+
+/// What a grid over an extent may take. `start`: of the whole bake; `again`: as often its light is gathered.
+Effort effort_of(const LightBakeOptions& options, Clock::time_point start, int again, Extent extent) {
   // Three times the error would do with a ninth of the rays; it gets a third, since noise shows before it is measured.
   constexpr float usual_error = 0.01f;
   const float rays = options.draft ? least_rays : std::clamp(usual_error / options.target_error, least_rays, 1.0f);
@@ -47,7 +59,7 @@ Effort effort_of(const LightBakeOptions& options, Clock::time_point start, int p
   if (options.draft || effort.most_bytes < little_room) effort.nodes = coarsest_nodes;
   if (std::isfinite(options.seconds)) {
     const auto limit = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.seconds));
-    effort.deadline = deadline_of(start + limit, parts, extent);
+    effort.deadline = deadline_of(start + limit, again, extent);
   }
   return effort;
 }
@@ -55,37 +67,57 @@ Effort effort_of(const LightBakeOptions& options, Clock::time_point start, int p
 /// What a refined grid may err by at most, as a share of what it did before: else its bytes are spared.
 constexpr float most_after_refinement = 0.9f;
 
-/// The light at the nodes of a grid that holds that of all; `cell` is of the light of surfaces, metres.
-Result<LightGrid> light_of_part(const Place& place, float cell, const LightGrid& all, const LightPart& part,
-                                const LightBakeOptions& options, Progress& progress, uint64_t& rays) {
-  const std::unique_ptr<const World> world = place.world.lit_by(part.luminaires);
-  LightBakeOptions of_part = options;
-  of_part.estimator.contained = part.contained;
-  of_part.estimator.reflected = part.reflected;
-  LW_TRY(cache, light_surfaces({*world, place.space, place.box}, all.shape, cell, of_part.estimator, progress));
-  const BakeScene scene{*world, place.space, cache, place.box};
-  LW_TRY(nodes, light_nodes(scene, all.shape, of_part, progress));
-  rays += cache.rays() + nodes.rays;
-  return AdaptiveLight::relit(all, GatheredLight(scene, of_part.estimator), std::move(nodes), options.estimator.threads,
+/// The grid `all` in other light.
+Result<LightGrid> relit(const LightGrid& all, const BakeScene& scene, const LightBakeOptions& options,
+                        Progress& progress, uint64_t& rays) {
+  LW_TRY(nodes, light_nodes(scene, all.shape, options, progress));
+  rays += nodes.rays;
+  return AdaptiveLight::relit(all, GatheredLight(scene, options.estimator), std::move(nodes), options.estimator.threads,
                               progress);
 }
 
-/// The same grid in the light of each part. `all` becomes their sum, which is what is looked up in the end.
-Result<std::vector<BakedGrid>> light_by_parts(const Place& place, float cell, LightGrid& all,
+/// The grid `all` in the light of a part. What comes straight from the sky needs no light of surfaces; that of a
+/// group's is found in a world which it alone lights.
+Result<LightGrid> light_of_part(const Place& place, const CoarseLight& coarse, const LightGrid& all,
+                                const LightPart& part, const LightBakeOptions& options, Progress& progress,
+                                uint64_t& rays) {
+  LightBakeOptions of_part = options;
+  of_part.estimator.contained = part.contained;
+  of_part.estimator.reflected = part.reflected;
+  if (!part.reflected) return relit(all, coarse.scene(), of_part, progress, rays);
+  const std::unique_ptr<const World> world = place.world.lit_by(part.luminaires);
+  LW_TRY(cache,
+         light_surfaces({*world, place.space, place.box}, all.shape, coarse.cell(), of_part.estimator, progress));
+  rays += cache.rays();
+  return relit(all, {*world, place.space, cache, place.box}, of_part, progress, rays);
+}
+
+/// How often the light of all nodes is gathered again: for each of several parts, but what is divided holds all that is
+/// reflected.
+int gathered_again(std::span<const LightPart> parts, const LightBakeOptions& options) {
+  const int count = static_cast<int>(parts.size());
+  return options.groups.size() > 1 ? count : count - 1;
+}
+
+/// The same grid in the light of each part. `all`, which holds all light but what is shown beside it, becomes the sum
+/// of the parts that do.
+Result<std::vector<BakedGrid>> light_by_parts(const Place& place, const CoarseLight& coarse, LightGrid& all,
                                               const LightBakeOptions& options, Progress& progress, uint64_t& rays) {
   const std::vector<LightPart> parts =
       light_parts(place.world, options.estimator.contained, options.groups, options.sky_apart);
   std::vector<BakedGrid> grids;
-  if (parts.size() == 1) {
-    grids.push_back({.grid = all, .contains = contents_of(parts.front(), place.world)});
-    return grids;
-  }
   for (const LightPart& part : parts) {
-    LW_TRY(grid, light_of_part(place, cell, all, part, options, progress, rays));
+    if (options.groups.size() <= 1 && part.reflected) {
+      grids.push_back({.grid = all, .contains = contents_of(part, place.world)});
+      continue;
+    }
+    LW_TRY(grid, light_of_part(place, coarse, all, part, options, progress, rays));
     grids.push_back({.grid = std::move(grid), .contains = contents_of(part, place.world)});
   }
+  if (options.groups.size() <= 1) return grids;
   all = grids.front().grid;
-  for (size_t i = 1; i < grids.size(); i++) add_light(all, grids[i].grid);
+  for (size_t i = 1; i < grids.size(); i++)
+    if (parts[i].reflected) add_light(all, grids[i].grid);
   return grids;
 }
 
@@ -149,16 +181,16 @@ Result<void> refine(CoarseLight& coarse, const TestPoints& judge, const LightBak
 }
 
 /// Bakes the grids over a box; adds to the statistics.
-Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions options, Effort effort, Progress& progress,
-                                        LightBakeStatistics& statistics) {
-  LW_TRY(coarse, affordable_light(place, options, effort, progress, statistics.rays));
+Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions options, const LightBakeOptions& divided,
+                                        Effort effort, Progress& progress, LightBakeStatistics& statistics) {
+  LW_TRY(coarse, affordable_light(place, divided, effort, progress, statistics.rays));
   options.estimator.effort = effort.rays;
   statistics.rays += coarse->rays();
   LW_TRY(judge, judges(*coarse, effort, progress));
   if (effort.adaptive) LW_CHECK(refine(*coarse, judge, options, effort, progress, statistics));
   statistics.nodes += coarse->best().nodes();
   LightGrid all = coarse->best().take();
-  LW_TRY(grids, light_by_parts(place, coarse->cell(), all, options, progress, statistics.rays));
+  LW_TRY(grids, light_by_parts(place, *coarse, all, options, progress, statistics.rays));
   for (BakedGrid& baked : grids) {
     baked.estimated_error = judge.error(all);
     baked.estimate = judge.errors(all);
@@ -195,13 +227,14 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
 
   std::vector<Box3f> boxes{world.surfaces().focus()};
   if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
-  const auto parts =
-      static_cast<int>(light_parts(world, options.estimator.contained, options.groups, options.sky_apart).size());
+  const int again =
+      gathered_again(light_parts(world, options.estimator.contained, options.groups, options.sky_apart), options);
+  const LightBakeOptions divided = of_divided(options, world);
   std::vector<BakedGrid> grids;
   for (const Box3f& box : boxes) {
     const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
-    const Effort effort = effort_of(options, start, parts, extent);
-    LW_TRY(baked, bake_box({world, space, box}, options, effort, progress, statistics));
+    const Effort effort = effort_of(divided, start, again, extent);
+    LW_TRY(baked, bake_box({world, space, box}, options, divided, effort, progress, statistics));
     for (BakedGrid& grid : baked) {
       grid.priority = static_cast<int>(&boxes.back() - &box);
       grids.push_back(std::move(grid));

@@ -30,6 +30,9 @@ struct LightBakeOptions {
   std::span<const LightGroup> groups{};
   /// Whether the environment's own light, which `contained` holds, has grids of its own apart from what is reflected.
   bool sky_apart = false;
+  /// Luminaires whose straight light is shown beside the grid's: it is no part of the grid, but of what its error is a
+  /// share of.
+  LuminaireSet beside{};
   EstimatorOptions estimator;
 };
 

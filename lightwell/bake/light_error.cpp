@@ -43,6 +43,13 @@ class TestPoints::Estimate {
     normal_ = sample_sphere(random);
   }
 
+  /// What is shown beside a grid's light: of that a few rays are enough, since it is no part of any difference.
+  void add_beside(const GatheredLight& light, Random& random) {
+    constexpr int rays = 64;
+    beside_ = brightness(on_surface_ ? light.received(position_, normal_, rays, random).irradiance
+                                     : light.around(position_, random, rays).moments.irradiance(normal_));
+  }
+
   void add(const GatheredLight& light, const TestPointOptions& options, Random& random) {
     passes_++;
     for (Vec3f& half : halves_) {
@@ -59,8 +66,10 @@ class TestPoints::Estimate {
     }
   }
 
-  /// Whether or not it is seen.
-  Vec3f irradiance() const { return (halves_[0] + halves_[1]) / (2.0f * static_cast<float>(passes_)); }
+  /// Whether or not it is seen, summed over the colours.
+  float all_light() const {
+    return brightness(halves_[0] + halves_[1]) / (2.0f * static_cast<float>(passes_)) + beside_;
+  }
 
   /// Dark where nobody sees it.
   Point point() const {
@@ -68,7 +77,9 @@ class TestPoints::Estimate {
     const bool hidden = on_surface_ ? insides_ > most_buried * passes
                                     : insides_ > most_insides * passes || behind_ > most_behind * passes;
     Point point{.position = position_, .normal = normal_, .on_surface = on_surface_, .irradiance = {}, .variance = {}};
-    if (!hidden) point.set(halves_[0] / passes, halves_[1] / passes);
+    if (hidden) return point;
+    point.set(halves_[0] / passes, halves_[1] / passes);
+    point.beside = beside_;
     return point;
   }
 
@@ -76,6 +87,7 @@ class TestPoints::Estimate {
   bool on_surface_ = false;
   Vec3f position_{}, normal_{};
   std::array<Vec3f, 2> halves_{};
+  float beside_ = 0;
   float insides_ = 0, behind_ = 0;
   int passes_ = 0;
 };
@@ -98,6 +110,7 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
             if (pass == 0) estimate.place(light.box(), surfaces, i < options.surface_points, place);
             Random more(options.seed + static_cast<uint64_t>(pass), ~i);
             estimate.add(light, options, pass == 0 ? place : more);
+            if (pass == 0 && options.beside != nullptr) estimate.add_beside(*options.beside, place);
           }
         },
         [&] { return progress.cancelled(); });
@@ -106,7 +119,7 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
     double sum = 0;
     for (const Estimate& estimate : estimates) {
       points.push_back(estimate.point());
-      sum += static_cast<double>(brightness(estimate.irradiance()));
+      sum += static_cast<double>(estimate.all_light());
     }
     test.all_ = sum / (3 * static_cast<double>(count));
     keep_lit(points);
@@ -117,10 +130,10 @@ Result<TestPoints> TestPoints::gather(const GatheredLight& light, const TestPoin
 
 /// Leaves out what is too dark to be seen.
 void TestPoints::keep_lit(std::vector<Point>& points) {
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return brightness(a.irradiance) < brightness(b.irradiance); });
-  const float least = least_lit * brightness(points[points.size() * 9 / 10].irradiance);
-  if (least > 0) std::erase_if(points, [&](const Point& point) { return !(brightness(point.irradiance) > least); });
+  const auto light = [](const Point& point) { return brightness(point.irradiance) + point.beside; };
+  std::ranges::sort(points, {}, light);
+  const float least = least_lit * light(points[points.size() * 9 / 10]);
+  if (least > 0) std::erase_if(points, [&](const Point& point) { return !(light(point) > least); });
 }
 
 float TestPoints::noise() const {
@@ -138,7 +151,7 @@ double TestPoints::square(const LightGrid& grid, const Point& point) {
 double TestPoints::mean() const {
   if (points_.empty()) return 0;
   double sum = 0;
-  for (const Point& point : points_) sum += static_cast<double>(brightness(point.irradiance));
+  for (const Point& point : points_) sum += static_cast<double>(brightness(point.irradiance) + point.beside);
   return sum / (3 * static_cast<double>(points_.size()));
 }
 

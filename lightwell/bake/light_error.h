@@ -21,6 +21,8 @@ struct TestPointOptions {
   /// When no more are taken, however noisy they are.
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
   float near = 1;  ///< cells of the surface cache within which the rays of surface points do not end in it
+  /// Light that is shown beside that of grids, if any: errors are shares of both.
+  const GatheredLight* beside = nullptr;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all processors
 };
@@ -70,6 +72,7 @@ class TestPoints {
     bool on_surface = true;
     Vec3f irradiance{};  // W/m2
     Vec3f variance{};
+    float beside = 0;  // W/m2, summed over the colours: TestPointOptions::beside
 
     /// Of two independent estimates.
     void set(const Vec3f& a, const Vec3f& b) {
@@ -82,12 +85,12 @@ class TestPoints {
   static void keep_lit(std::vector<Point>& points);
   /// The squared difference of a grid at a point beyond the noise of the gathered light, summed over the colours.
   static double square(const LightGrid& grid, const Point& point);
-  /// The mean irradiance of a colour, W/m2.
+  /// The mean irradiance of a colour, with that beside, W/m2.
   double mean() const;
   /// What errors are shares of, W/m2.
   double size() const;
   std::vector<Point> points_;
-  double all_ = 0;  ///< the mean irradiance of a colour at all places, seen or not, W/m2
+  double all_ = 0;  ///< the same of all places, seen or not
 };
 
 }  // namespace lightwell
