@@ -4,7 +4,6 @@ import type {
   BufferGeometry,
   Camera,
   DataTexture,
-  Matrix4,
   Object3D,
   Points,
   PointsMaterial,
@@ -14,20 +13,17 @@ import type {
   WebGLRenderer,
 } from 'three';
 import type { DirectKit } from '../direct_kit.js';
-import type { Environment } from '../environment.js';
 import type { LampDefinition } from '../extensions.js';
 import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
-import type { LightwellLight } from '../light.js';
-import type { Opening } from '../opening.js';
 import { aside } from './aside.js';
 import { letLampsThrough } from './casters.js';
 import { three, useKit } from './kit.js';
 import { createLamp, formOf, type Lamp, type PlacedLamp, placed, TEXELS_OF_LAMP, TEXELS_OF_SKY, texelsOf } from './lamp.js';
-import { type LampPoint, middleOf, pointOf, skyPointOf } from './lamp_points.js';
+import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
 import { ScreenShares } from './screen_shares.js';
 import { ShadowMap } from './shadow_map.js';
-import { Sky } from './sky.js';
+import { SKY, SkyLamp, type SkyOfPack } from './sky_lamp.js';
 import { signatureOf, Surfaces } from './surfaces.js';
 
 export type Shadows = 'soft' | 'hard' | 'off';
@@ -55,9 +51,6 @@ const FEW_LAMPS = 4;
 /** While geometry streams in, shadows are drawn anew at most so often, in milliseconds. */
 const INTERVAL = 500;
 
-/** Of packs whose grids have its own light apart. */
-const SKY: LampDefinition = { kind: 'sky', radiance: [1, 1, 1] };
-
 /** A lamp's shadow in the present view. */
 interface Shadow {
   readonly lamp: Lamp;
@@ -68,16 +61,12 @@ interface Shadow {
   count: number;
 }
 
-export interface Surroundings {
+export interface Surroundings extends SkyOfPack {
   readonly renderer: WebGLRenderer;
   readonly scheduler: FrameScheduler;
   /** Of all meshes, and of what the pack is about, in the pack's space. */
   readonly bounds: Box3;
   readonly focus: Box3;
-  readonly opening: Opening;
-  readonly environment: Environment | undefined;
-  /** Those that are made to be shown in the place of others, too. */
-  readonly grids: LightwellLight[];
   /** Called when a better picture can be drawn. */
   readonly changed: () => void;
 }
@@ -100,10 +89,8 @@ export class DirectLight {
   readonly #scratch = new Map<number, ShadowMap>();
   readonly #task: FrameTask;
   readonly #floats: boolean;
+  readonly #sky: SkyLamp;
   #kind: Shadows = 'soft';
-  #sky: Sky | null = null;
-  /** Of the picture that the sky was made of. */
-  #skyVersion = -1;
   #root: Object3D | null = null;
   /** Of the present view, whose surfaces are drawn when somebody asks for them. */
   #camera: Camera | null = null;
@@ -125,9 +112,7 @@ export class DirectLight {
     this.#surroundings = surroundings;
     const { renderer, scheduler } = surroundings;
     letLampsThrough(definitions, surroundings.opening, surroundings.focus);
-    const { grids, opening, environment } = surroundings;
-    const skyShines = grids.some(({ definition }) => definition.insteadOf) && Sky.isKnown(opening, environment?.texture);
-    this.lamps = [...definitions, ...(skyShines ? [SKY] : [])].map(createLamp);
+    this.lamps = [...definitions, ...(SkyLamp.shines(surroundings) ? [SKY] : [])].map(createLamp);
     this.#floats = renderer.extensions.has('EXT_color_buffer_float');
     this.#surfaces = new Surfaces(renderer);
     const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
@@ -147,6 +132,7 @@ export class DirectLight {
     this.hook.frustumCulled = false;
     this.hook.renderOrder = -Infinity;
     this.hook.onBeforeRender = (_, __, camera) => this.#prepare(camera);
+    this.#sky = new SkyLamp(surroundings, this.hook);
     this.#task = scheduler.add(() => this.#refine(), BUDGET);
   }
 
@@ -225,41 +211,13 @@ export class DirectLight {
       this.#drawing = true;
       aside(renderer, () => {
         if (shadowed) this.#look(camera, shining, viewport);
-        this.#showSky(shining, shadowed);
-        this.#writeTable(camera, shining.filter((shadow) => !isSky(shadow.lamp) || this.#showsSky(shadow, shadowed)), shadowed);
+        const shown = shining.filter(({ lamp, count }) => !isSky(lamp) || (shadowed && count >= POINTS_TO_SHOW_SKY));
+        this.#sky.replaceInGrids(shown.some(({ lamp }) => isSky(lamp)));
+        this.#writeTable(camera, shown, shadowed);
         this.#shares.showTable(renderer, this.#table);
       });
       this.#drawing = false;
     } else this.#writeTable(camera, shining, false);
-  }
-
-  #showsSky({ lamp, count }: Shadow, shadowed: boolean): boolean {
-    return shadowed && isSky(lamp) && count >= POINTS_TO_SHOW_SKY;
-  }
-
-  /** Lets the grids have the sky's own light unless it is shown as a lamp. */
-  #showSky(shining: Shadow[], shadowed: boolean): void {
-    const shown = shining.some((shadow) => this.#showsSky(shadow, shadowed));
-    const { grids } = this.#surroundings;
-    for (const grid of grids) {
-      const other = grids.find(({ definition }) => definition === grid.definition.insteadOf);
-      if (other !== undefined) other.shown = shown ? grid : other;
-    }
-  }
-
-  /** Takes the sky as its picture is now, which gets sharper; says whether it is another than before. */
-  #renewSky(): boolean {
-    const { opening, environment } = this.#surroundings;
-    const version = environment?.texture.version ?? 0;
-    if (this.#sky !== null && version === this.#skyVersion) return false;
-    this.#sky = Sky.of(opening, environment?.texture);
-    this.#skyVersion = version;
-    return true;
-  }
-
-  /** From the pack's axes into the world's. */
-  #turn(): Matrix4 {
-    return new three.Matrix4().extractRotation(this.hook.matrixWorld);
   }
 
   /** Looks the kept maps up where the view, what is seen, or the map is another than before. */
@@ -282,7 +240,7 @@ export class DirectLight {
       const form = placed(shadow.lamp);
       const now = formOf(form);
       if (isSky(shadow.lamp)) {
-        const isNew = this.#renewSky();
+        const isNew = this.#sky.renew();
         if (shadow.form === null || isNew) this.#mapsTime = performance.now();
         if (shadow.form === null || isNew || shadow.count < 0) Object.assign(shadow, { form: now, count: 0 });
         this.#scratchMap(shadow.lamp);
@@ -340,18 +298,10 @@ export class DirectLight {
     const data = this.#table.image.data as Float32Array;
     const { width, height, viewport } = this.#shares;
     const now = new Float32Array(data.length);
-    const sky = shining.some(({ lamp }) => isSky(lamp)) ? this.#skyTexels(view) : new Array(4 * TEXELS_OF_SKY).fill(0);
-    now.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...sky, ...texels]);
+    now.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...this.#sky.texels(view), ...texels]);
     if (now.every((number, i) => number === data[i])) return;
     data.set(now);
     this.#table.needsUpdate = true;
-  }
-
-  /** The irradiance of the sky, by normals in the camera's space. */
-  #skyTexels(view: Matrix4): number[] {
-    const turn = new three.Matrix4().extractRotation(view).multiply(this.#turn());
-    const back = turn.clone().transpose();
-    return this.#sky!.irradiance.flatMap((matrix) => turn.clone().multiply(matrix).multiply(back).toArray());
   }
 
   /** Adds samples of the lamps that have fewest. */
@@ -392,7 +342,7 @@ export class DirectLight {
     const map = this.#scratchMap(shadow.lamp);
     const form = placed(shadow.lamp);
     this.#drawSurfaces();
-    this.#drawMap(map, form, isSky(shadow.lamp) ? skyPointOf(this.#sky!, this.#turn(), shadow.count) : pointOf(form, shadow.count));
+    this.#drawMap(map, form, isSky(shadow.lamp) ? this.#sky.pointOf(shadow.count) : pointOf(form, shadow.count));
     const share = this.#shadows.indexOf(shadow);
     const { color = [1] } = map.point;
     color.forEach((strength, channel) => this.#shares.add(renderer, share + channel, map, shadow.count === 0, false, strength));
