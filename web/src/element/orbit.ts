@@ -142,12 +142,16 @@ export class Orbit {
 
   /** Shows all of a box whose middle is looked at, from as near as can be, unless it is seen from inside. */
   #approach(box: Box3): void {
-    const { matrixWorldInverse, position, projectionMatrix } = this.#camera;
-    if (box.containsPoint(position)) return;
+    const { matrixWorldInverse, projectionMatrix } = this.#camera;
+    if (box.containsPoint(this.#camera.position)) return;
     this.#camera.updateMatrixWorld();
-    const { max } = box.clone().applyMatrix4(matrixWorldInverse);
     const [slopeX, , , , , slopeY] = projectionMatrix.elements;
-    const nearer = -max.z - MARGIN * Math.max(slopeX! * max.x, slopeY! * max.y);
+    const ends = [box.min, box.max];
+    let nearer = Infinity;
+    for (let i = 0; i < 8; i++) {
+      const { x, y, z } = new Vector3(ends[i & 1]!.x, ends[(i >> 1) & 1]!.y, ends[i >> 2]!.z).applyMatrix4(matrixWorldInverse);
+      nearer = Math.min(nearer, -z - MARGIN * Math.max(slopeX! * Math.abs(x), slopeY! * Math.abs(y)));
+    }
     this.view = { ...this.view, radius: this.view.radius - nearer };
   }
 
