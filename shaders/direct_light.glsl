@@ -6,8 +6,8 @@
 //
 // Texels of the map, row 0: number of lamps, whether there are shares, their width and height; the viewport: x, y, width, height; of a
 // sky three matrices, one a colour, for the irradiance of a surface with the normal n: n M n; then five a lamp, all in the camera's space:
-//   position (of a sun: where its light comes from), kind
-//   colour: radiance, or intensity; range, 0 without end
+//   position (of a sun: where its light comes from; of a sky: the middle of what its shadows are drawn of), kind
+//   colour: radiance, or intensity; range, 0 without end; of a sky that of its shadows
 //   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
 //   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
 //   normal; number of its share, of a sky that of red, before those of green and blue

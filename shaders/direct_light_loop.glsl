@@ -13,6 +13,9 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 		Lamp lamp = readLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], k );
 		if ( lamp.kind == LAMP_SKY ) {
 
+			// Farther away is no shadow of it, and what stands there has light of its own grid, or of another pack's.
+			vec3 way = geometryPosition - lamp.position;
+			if ( dot( way, way ) > pow2( lamp.range ) ) continue;
 			vec3 mirrored = reflect( - geometryViewDir, geometryNormal );
 			skyLight.lit = true;
 			skyLight.share = lamp.color;

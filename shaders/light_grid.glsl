@@ -12,7 +12,7 @@
 // scale times the box's size. A negative z marks the grid, since three.js counts probes there. What else is needed lies
 // in texel (0, 0, 0) of the atlas; lightwell/light/atlas.h describes it and the values. Red of texel (1, 0, 0) is
 // 1 when the grid holds the light of the environment, which the page knows from the pack's JSON and writes there, and 2 more when
-// lookups are to be tricubic; green is the finest level of a grid with bricks, whose atlas is another.
+// lookups are to be tricubic, and 4 more when the sky shines beside it as a lamp (direct_light.glsl); green is the finest level of a grid with bricks, whose atlas is another.
 //
 // docs/decisions/011-cost-of-the-lookup.md tells what costs how much.
 

@@ -64,7 +64,7 @@ struct Receiver {
 
 		vec3 n = receiver.normal;
 		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 );
-		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - 2e-4 * range.x / range.y;
+		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - 1e-4;
 
 	}
 

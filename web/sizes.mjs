@@ -17,6 +17,7 @@ const bundled = await bundle({
   entryPoints: ['src/page/main.ts'],
   external: ['three', 'three/*'],
   splitting: true,
+  chunkNames: 'page-[name]',
   loader: { '.html': 'text' },
 });
 const own = bundled.find(({ path }) => basename(path) === 'main.js');

@@ -35,14 +35,16 @@ Clock::time_point deadline_of(Clock::time_point end, int again, Extent extent) {
 }
 
 /// Options of the grid that is divided, whose nodes all parts have: a sky apart is found by the client beside it, more
-/// finely than by any grid, and its own grid takes the other half of the bytes.
-LightBakeOptions of_divided(const LightBakeOptions& options, const World& world) {
+/// finely than by any grid, but for the surroundings, where grids go on to show it. Its own grid takes the other half
+/// of the bytes.
+LightBakeOptions of_divided(const LightBakeOptions& options, const World& world, Extent extent) {
   LightBakeOptions divided = options;
   const int sky = world.lights().environment_luminaire();
   if (!options.sky_apart || !options.estimator.contained.contains(sky)) return divided;
+  divided.most_bytes /= 2;
+  if (extent == Extent::surroundings) return divided;
   divided.estimator.contained.erase(sky);
   divided.beside.insert(sky);
-  divided.most_bytes /= 2;
   return divided;
 }
 
@@ -76,16 +78,17 @@ Result<LightGrid> relit(const LightGrid& all, const BakeScene& scene, const Ligh
                               progress);
 }
 
-/// The grid `all` in the light of a part. What comes straight from the sky needs no light of surfaces; that of a
-/// group's is found in a world which it alone lights.
+/// The grid `all` in the light of a part, which alone lights a world of its own. What comes straight from the sky needs
+/// no light of surfaces: none is asked for.
 Result<LightGrid> light_of_part(const Place& place, const CoarseLight& coarse, const LightGrid& all,
                                 const LightPart& part, const LightBakeOptions& options, Progress& progress,
                                 uint64_t& rays) {
   LightBakeOptions of_part = options;
   of_part.estimator.contained = part.contained;
   of_part.estimator.reflected = part.reflected;
-  if (!part.reflected) return relit(all, coarse.scene(), of_part, progress, rays);
   const std::unique_ptr<const World> world = place.world.lit_by(part.luminaires);
+  if (!part.reflected)
+    return relit(all, {*world, place.space, coarse.scene().cache, place.box}, of_part, progress, rays);
   LW_TRY(cache,
          light_surfaces({*world, place.space, place.box}, all.shape, coarse.cell(), of_part.estimator, progress));
   rays += cache.rays();
@@ -99,25 +102,27 @@ int gathered_again(std::span<const LightPart> parts, const LightBakeOptions& opt
   return options.groups.size() > 1 ? count : count - 1;
 }
 
-/// The same grid in the light of each part. `all`, which holds all light but what is shown beside it, becomes the sum
-/// of the parts that do.
+/// The same grid in the light of each part. `all`, which holds all light or all but the sky's `beside` it, becomes the
+/// sum of the parts that do.
 Result<std::vector<BakedGrid>> light_by_parts(const Place& place, const CoarseLight& coarse, LightGrid& all,
-                                              const LightBakeOptions& options, Progress& progress, uint64_t& rays) {
+                                              const LightBakeOptions& options, bool beside, Progress& progress,
+                                              uint64_t& rays) {
   const std::vector<LightPart> parts =
       light_parts(place.world, options.estimator.contained, options.groups, options.sky_apart);
   std::vector<BakedGrid> grids;
+  const bool is_a_part = options.groups.size() <= 1 && (beside || parts.size() == 1);
   for (const LightPart& part : parts) {
-    if (options.groups.size() <= 1 && part.reflected) {
+    if (is_a_part && part.reflected) {
       grids.push_back({.grid = all, .contains = contents_of(part, place.world)});
       continue;
     }
     LW_TRY(grid, light_of_part(place, coarse, all, part, options, progress, rays));
     grids.push_back({.grid = std::move(grid), .contains = contents_of(part, place.world)});
   }
-  if (options.groups.size() <= 1) return grids;
+  if (is_a_part) return grids;
   all = grids.front().grid;
   for (size_t i = 1; i < grids.size(); i++)
-    if (parts[i].reflected) add_light(all, grids[i].grid);
+    if (parts[i].reflected || !beside) add_light(all, grids[i].grid);
   return grids;
 }
 
@@ -190,7 +195,8 @@ Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions opt
   if (effort.adaptive) LW_CHECK(refine(*coarse, judge, options, effort, progress, statistics));
   statistics.nodes += coarse->best().nodes();
   LightGrid all = coarse->best().take();
-  LW_TRY(grids, light_by_parts(place, *coarse, all, options, progress, statistics.rays));
+  LW_TRY(grids,
+         light_by_parts(place, *coarse, all, options, divided.beside != LuminaireSet(), progress, statistics.rays));
   for (BakedGrid& baked : grids) {
     baked.estimated_error = judge.error(all);
     baked.estimate = judge.errors(all);
@@ -229,10 +235,10 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
   const int again =
       gathered_again(light_parts(world, options.estimator.contained, options.groups, options.sky_apart), options);
-  const LightBakeOptions divided = of_divided(options, world);
   std::vector<BakedGrid> grids;
   for (const Box3f& box : boxes) {
     const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
+    const LightBakeOptions divided = of_divided(options, world, extent);
     const Effort effort = effort_of(divided, start, again, extent);
     LW_TRY(baked, bake_box({world, space, box}, options, divided, effort, progress, statistics));
     for (BakedGrid& grid : baked) {

@@ -68,7 +68,7 @@ class TestPoints::Estimate {
 
   /// Whether or not it is seen, summed over the colours.
   float all_light() const {
-    return brightness(halves_[0] + halves_[1]) / (2.0f * static_cast<float>(passes_)) + beside_;
+    return brightness((halves_[0] + halves_[1]) / (2.0f * static_cast<float>(passes_))) + beside_;
   }
 
   /// Dark where nobody sees it.

@@ -47,7 +47,8 @@ class PhotonEstimator : public Estimator {
         sums.flights++;
         // Light that leaves the back of a surface is ignored: the rays of measure_node_space count the space there as
         // inside a solid.
-        if ((flight.bounces == 0 && !options_.contained.contains(flight.luminaire)) || flight.from_back) continue;
+        const bool wanted = flight.bounces > 0 ? options_.reflected : options_.contained.contains(flight.luminaire);
+        if (!wanted || flight.from_back) continue;
         sums.left.deposit(flight.origin, flight.direction, flight.length, flight.flux / reference_flux_);
       }
     }

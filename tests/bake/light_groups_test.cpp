@@ -157,6 +157,23 @@ TEST(LightParts, TheSkysOwnLightIsWhatComesStraight) {
   }
 }
 
+// Dark posts on a dark floor: next to all light comes straight from the sky, with edges at the posts' feet that no grid of
+// 12,000 bytes holds, and what is reflected is a small part of it. Both grids have the same nodes, each half of the bytes.
+TEST(LightParts, WithTheSkyApartCellsAreDividedByWhatIsReflected) {
+  Mesh floor = block({{0, -1, 0}}, {{8, 0, 8}});
+  for (const float x : {1.0f, 3.0f, 5.0f})
+    for (const float z : {2.0f, 4.0f, 6.0f}) append(floor, block({{x, 0, z}}, {{x + 0.4f, 1.5f, z + 0.4f}}));
+  Scene scene = scene_of(floor, lambertian(0.1f));
+  scene.environment.radiance = Vec3f::filled(1);
+  const auto world = world_of(scene);
+  const std::vector<BakedGrid> together = bake(*world, 0, {}), apart = bake(*world, 0, {}, true);
+  ASSERT_EQ(together.size(), 1u);
+  ASSERT_EQ(apart.size(), 2u);
+  EXPECT_EQ(apart[0].grid.moments.size(), apart[1].grid.moments.size());
+  EXPECT_LE(apart[0].grid.tree.bricks().size(), together[0].grid.tree.bricks().size());
+  EXPECT_LT(apart[0].estimated_error, 0.6f * together[0].estimated_error);
+}
+
 TEST(LightGroups, OneGroupChangesNothing) {
   const Scene scene = three_lights();
   const auto world = world_of(scene);

@@ -48,7 +48,7 @@ function irradiance(lights: Object3D[], distance: number, angle: number): number
 export function ofLamp(definition: Partial<LampDefinition>, distance: number, angle = 0): number {
   const lamp = { kind: 'point', center: [0, 0, 0], normal: [0, 0, -1], intensity: [1, 1, 1], ...definition } as LampDefinition;
   const opening = { gltf: { scene: new Group() }, meshesOf: () => [] } as unknown as Opening;
-  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, changed: () => {} };
+  const surroundings = { renderer, scheduler: FrameScheduler.of(renderer), bounds, focus: bounds, opening, environment: undefined, grids: [], changed: () => {} };
   const direct = new DirectLight(DIRECT_KIT, [lamp], surroundings);
   const measured = irradiance([direct.hook, direct.carrier, ...direct.lamps], distance, angle);
   direct.dispose();

@@ -110,6 +110,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   #received = false;
   #complete = false;
   #wireframe = false;
+  #edges: Promise<void> | null = null;
 
   private constructor(
     opening: Opening,
@@ -216,9 +217,9 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
    * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face. Resolves when what can be shown so is.
    */
   async setWireframe(wireframe: boolean): Promise<void> {
-    if (!wireframe && !this.#wireframe) return;
+    if (!wireframe && !this.#edges) return;
     this.#wireframe = wireframe;
-    await this.#showEdges();
+    await (this.#edges = this.#showEdges());
   }
 
   async #showEdges(): Promise<void> {

@@ -23,7 +23,7 @@ import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
 import { ScreenShares } from './screen_shares.js';
 import { ShadowMap } from './shadow_map.js';
-import { SKY, SkyLamp, type SkyOfPack } from './sky_lamp.js';
+import { SkyLamp, type SkyOfPack } from './sky_lamp.js';
 import { signatureOf, Surfaces } from './surfaces.js';
 
 export type Shadows = 'soft' | 'hard' | 'off';
@@ -64,9 +64,8 @@ interface Shadow {
 export interface Surroundings extends SkyOfPack {
   readonly renderer: WebGLRenderer;
   readonly scheduler: FrameScheduler;
-  /** Of all meshes, and of what the pack is about, in the pack's space. */
+  /** Of all meshes, in the pack's space. */
   readonly bounds: Box3;
-  readonly focus: Box3;
   /** Called when a better picture can be drawn. */
   readonly changed: () => void;
 }
@@ -112,7 +111,7 @@ export class DirectLight {
     this.#surroundings = surroundings;
     const { renderer, scheduler } = surroundings;
     letLampsThrough(definitions, surroundings.opening, surroundings.focus);
-    this.lamps = [...definitions, ...(SkyLamp.shines(surroundings) ? [SKY] : [])].map(createLamp);
+    this.lamps = [...definitions, ...SkyLamp.of(surroundings)].map(createLamp);
     this.#floats = renderer.extensions.has('EXT_color_buffer_float');
     this.#surfaces = new Surfaces(renderer);
     const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
@@ -189,7 +188,7 @@ export class DirectLight {
   #shining(): Shadow[] {
     const shines = ({ visible, intensity, color }: Lamp) => visible && intensity * Math.max(color.r, color.g, color.b) > 0;
     const soft = this.#floats && this.#kind === 'soft';
-    return this.#shadows.filter(({ lamp }) => shines(lamp) && (soft || !isSky(lamp)));
+    return this.#shadows.filter(({ lamp }) => shines(lamp) && (!isSky(lamp) || (soft && this.#sky.replacesSomething)));
   }
 
   #enough({ lamp: { definition } }: Shadow): number {

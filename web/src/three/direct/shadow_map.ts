@@ -52,7 +52,7 @@ export class ShadowMap {
   draw(surfaces: Surfaces, root: Object3D, placed: PlacedLamp, point: LampPoint, bounds: Sphere, focus: Sphere): void {
     this.point = point;
     surfaces.draw(root, 'casters', (render) => {
-      if (this.sun) this.#drawSun(surfaces, bounds, focus, render);
+      if (this.sun) this.#drawSun(surfaces, focus, render);
       else this.#drawCube(surfaces, placed, bounds, focus, render);
     });
   }
@@ -75,15 +75,14 @@ export class ShadowMap {
     }
   }
 
-  /** As deep as all that may stand in the way of the light. */
-  #drawSun(surfaces: Surfaces, bounds: Sphere, focus: Sphere, render: Render): void {
+  /** As deep as what the pack is about and as much again on both sides: a dome of sky that the file has stands farther away. */
+  #drawSun(surfaces: Surfaces, focus: Sphere, render: Render): void {
     const [right, up, front] = this.point.axes;
     const { radius, center } = focus;
-    const depth = Math.max(2 * radius, center.distanceTo(bounds.center) + bounds.radius);
-    this.range = [radius, depth];
+    this.range = [radius, 2 * radius];
     this.center = center;
-    const camera = new three.OrthographicCamera(-radius, radius, radius, -radius, 0, 2 * depth);
-    this.#aim(camera, right, up, front.clone().negate(), center.clone().addScaledVector(front, -depth));
+    const camera = new three.OrthographicCamera(-radius, radius, radius, -radius, 0, 4 * radius);
+    this.#aim(camera, right, up, front.clone().negate(), center.clone().addScaledVector(front, -2 * radius));
     this.#show(surfaces, 0, 0);
     render(camera);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { DataTexture, Matrix4, Object3D } from 'three';
+import type { Box3, DataTexture, Matrix4, Object3D } from 'three';
 import type { LampDefinition } from '../extensions.js';
 import type { LightwellLight } from '../light.js';
 import type { Opening } from '../opening.js';
@@ -8,9 +8,6 @@ import { TEXELS_OF_SKY } from './lamp.js';
 import { type LampPoint, skyPointOf } from './lamp_points.js';
 import { Sky } from './sky.js';
 
-/** As which the sky is among the lamps, of packs whose grids have its own light apart. */
-export const SKY: LampDefinition = { kind: 'sky', radiance: [1, 1, 1] };
-
 /** Where a pack's sky is. */
 export interface SkyOfPack {
   readonly opening: Opening;
@@ -18,6 +15,8 @@ export interface SkyOfPack {
   readonly environment: { readonly texture: DataTexture } | undefined;
   /** Those that are made to be shown in the place of others, too. */
   readonly grids: LightwellLight[];
+  /** What the pack is about, in its space. */
+  readonly focus: Box3;
 }
 
 /** The sky of a pack as one of its lamps, in the place of its light in the grids. */
@@ -32,9 +31,24 @@ export class SkyLamp {
     private readonly pack: Object3D,
   ) {}
 
-  /** Whether a pack has its light apart, and tells what it is. */
-  static shines({ opening, environment, grids }: SkyOfPack): boolean {
-    return grids.some(({ definition }) => definition.insteadOf) && Sky.isKnown(opening, environment?.texture);
+  /** As which the sky is among the lamps of a pack that has its light apart, and tells what it is: around what its shadows are drawn of. */
+  static of({ opening, environment, grids, focus }: SkyOfPack): LampDefinition[] {
+    if (!grids.some(({ definition }) => definition.insteadOf) || !Sky.isKnown(opening, environment?.texture)) return [];
+    const { center, radius } = focus.getBoundingSphere(new three.Sphere());
+    return [{ kind: 'sky', radiance: [1, 1, 1], center: center.toArray(), range: radius }];
+  }
+
+  /** Whether one of the grids is seen in whose place it shines. */
+  get replacesSomething(): boolean {
+    return this.#replaced.some(([grid]) => grid.visible);
+  }
+
+  /** The grids that are shown, and those that may be in their place. */
+  get #replaced(): [LightwellLight, LightwellLight][] {
+    const { grids } = this.of;
+    return grids.flatMap((grid) =>
+      grids.filter(({ definition }) => definition === grid.definition.insteadOf).map((other): [LightwellLight, LightwellLight] => [other, grid]),
+    );
   }
 
   /** Takes the sky as its picture is now, which gets sharper; says whether it is another than before. */
@@ -49,11 +63,7 @@ export class SkyLamp {
 
   /** Lets the grids have its light, or not where it is shown as a lamp. */
   replaceInGrids(shown: boolean): void {
-    const { grids } = this.of;
-    for (const grid of grids) {
-      const other = grids.find(({ definition }) => definition === grid.definition.insteadOf);
-      if (other !== undefined) other.shown = shown ? grid : other;
-    }
+    for (const [grid, other] of this.#replaced) grid.shown = shown ? other : grid;
   }
 
   /** Of a number from 0 on; after `renew`. */
