@@ -157,8 +157,9 @@ TEST(LightParts, TheSkysOwnLightIsWhatComesStraight) {
   }
 }
 
-// Dark posts on a dark floor: next to all light comes straight from the sky, with edges at the posts' feet that no grid of
-// 12,000 bytes holds, and what is reflected is a small part of it. Both grids have the same nodes, each half of the bytes.
+// Dark posts on a dark floor: next to all light comes straight from the sky, with edges at the posts' feet that no grid
+// of 12,000 bytes holds, and what is reflected is a small part of it. Both grids have the same nodes, each half of the
+// bytes.
 TEST(LightParts, WithTheSkyApartCellsAreDividedByWhatIsReflected) {
   Mesh floor = block({{0, -1, 0}}, {{8, 0, 8}});
   for (const float x : {1.0f, 3.0f, 5.0f})
