@@ -31,7 +31,7 @@ export type Shadows = 'soft' | 'hard' | 'off';
 /** How many points of a lamp are enough: of one with an area, and of one without, whose map alone is smoothed. */
 const POINTS = 256;
 const POINTS_OF_POINT = 32;
-/** Of the sky, half of whose directions come from below a floor. */
+/** Of the sky: under a uniform one half of its directions come from below a floor. */
 const POINTS_OF_SKY = 512;
 /** From so many points on the sky is shown as a lamp; until then the grid shows it. */
 const POINTS_TO_SHOW_SKY = 64;

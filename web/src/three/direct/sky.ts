@@ -59,7 +59,9 @@ export class Sky {
     const y = Math.floor(row);
     const column = find(this.#columns[y]!, b);
     const cell = this.#cells[y]![Math.floor(column)]!;
-    const color = cell.radiance.map((channel) => channel / luminanceOf(cell)) as Triple;
+    // A picture that is black all over gives nothing, and no NaN.
+    const luminance = luminanceOf(cell) || 1;
+    const color = cell.radiance.map((channel) => channel / luminance) as Triple;
     const [below, above] = heightsOf(y);
     return { direction: direction(column / COLUMNS, Math.acos(below + (row - y) * (above - below)) / Math.PI), color };
   }
