@@ -22,6 +22,7 @@ constexpr Codec codecs[] = {
     {StreamKind::light, light_codec_lattice, open_light_lattice},
     {StreamKind::bricks, bricks_codec_lattice, open_light_bricks},
     {StreamKind::mesh, mesh_codec_splits, open_mesh_splits},
+    {StreamKind::mesh, mesh_codec_regions, open_mesh_splits},
     {StreamKind::parts, parts_codec_gzip, open_parts_file},
     {StreamKind::texture, texture_codec_file, open_texture_file},
 };

@@ -26,14 +26,14 @@ Bytes bytes_of(const MeshBuffers& buffers, Semantic semantic) {
 
 }  // namespace
 
-MeshAsset::MeshAsset(uint32_t asset, const MeshParameters& parameters)
-    : asset_(asset), layout_(parameters.layout), places_(parameters.places) {
+MeshAsset::MeshAsset(uint32_t asset, const MeshLayout& layout, const BasePlaces& places)
+    : asset_(asset), places_(places) {
   using Component = AttributeLayout::Component;
   attributes_.push_back({Semantic::position, Component::f32, 3, false, 12});
-  if (layout_.has_normals) attributes_.push_back({Semantic::normal, Component::i16, 3, true, 8});
-  if (layout_.has_texcoords[0]) attributes_.push_back({Semantic::texcoord_0, Component::f32, 2, false, 8});
-  if (layout_.has_texcoords[1]) attributes_.push_back({Semantic::texcoord_1, Component::f32, 2, false, 8});
-  if (layout_.has_colors) attributes_.push_back({Semantic::color, Component::u16, 4, true, 8});
+  if (layout.has_normals) attributes_.push_back({Semantic::normal, Component::i16, 3, true, 8});
+  if (layout.has_texcoords[0]) attributes_.push_back({Semantic::texcoord_0, Component::f32, 2, false, 8});
+  if (layout.has_texcoords[1]) attributes_.push_back({Semantic::texcoord_1, Component::f32, 2, false, 8});
+  if (layout.has_colors) attributes_.push_back({Semantic::color, Component::u16, 4, true, 8});
 }
 
 Result<void> MeshAsset::append(Bytes payload) {
@@ -43,7 +43,9 @@ Result<void> MeshAsset::append(Bytes payload) {
 
 bool MeshAsset::complete() const { return buffers().complete; }
 
-std::optional<Update> MeshAsset::announce() { return MeshUpdate{asset_, layout_.vertices, layout_.faces, attributes_}; }
+std::optional<Update> MeshAsset::announce() {
+  return MeshUpdate{asset_, layout().vertices, layout().faces, attributes_};
+}
 
 std::optional<Update> MeshAsset::take(size_t budget) {
   if (changed_ && !batch_) start_batch();
@@ -51,7 +53,7 @@ std::optional<Update> MeshAsset::take(size_t budget) {
   if (!ranges_.empty()) return next_range(budget);
   batch_ = false;
   const MeshBuffers now = buffers();
-  return DrawUpdate{asset_, now.vertices, now.faces};
+  return DrawUpdate{asset_, now.vertices, now.faces, region_faces_};
 }
 
 void MeshAsset::start_batch() {
@@ -62,9 +64,11 @@ void MeshAsset::start_batch() {
     enqueue(i, bytes_of(now, semantic), stride, changes.vertices);
     if (semantic == Semantic::normal) enqueue(i, bytes_of(now, semantic), stride, changes.normals);
   }
-  const Bytes indices = bytes_of(now.indices);
-  enqueue(RangeUpdate::indices, indices, 4, changes.indices);
-  for (const BufferRange& range : changes.rewired) enqueue(RangeUpdate::indices, indices, 4, range);
+  region_faces_.clear();
+  for (size_t i = 0; i < layout().region_count(); i++)
+    region_faces_.push_back(static_cast<uint32_t>(indices(i).size() / 3));
+  for (const auto* ranges : {&changes.indices, &changes.rewired})
+    for (const BufferRange& range : *ranges) enqueue(RangeUpdate::indices, bytes_of(index_buffer()), 4, range);
   std::ranges::reverse(ranges_);
   changed_ = false;
   batch_ = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mesh codec mesh_codec_splits: vertex splits that refine the coarsest level in the opening (mesh/stream.h).
+// The mesh codecs mesh_codec_splits and mesh_codec_regions: vertex splits that refine the coarsest level in the opening
+// (mesh/stream.h).
 #include "lightwell/asset/codecs.h"
 #include "lightwell/asset/mesh_asset.h"
 
@@ -9,8 +10,8 @@ namespace {
 
 class MeshSplits final : public MeshAsset {
  public:
-  MeshSplits(uint32_t asset, const MeshParameters& parameters, MeshDecoder decoder)
-      : MeshAsset(asset, parameters), decoder_(std::move(decoder)) {}
+  MeshSplits(uint32_t asset, const BasePlaces& places, MeshDecoder decoder)
+      : MeshAsset(asset, decoder.layout(), places), decoder_(std::move(decoder)) {}
 
   MeshBuffers buffers() const override {
     return {decoder_.vertices(),
@@ -19,9 +20,11 @@ class MeshSplits final : public MeshAsset {
             decoder_.normals(),
             {decoder_.texcoords(0), decoder_.texcoords(1)},
             decoder_.colors(),
-            decoder_.indices(),
             decoder_.complete()};
   }
+  const MeshLayout& layout() const override { return decoder_.layout(); }
+  std::span<const uint32_t> indices(size_t region) const override { return decoder_.indices(region); }
+  std::span<const uint32_t> index_buffer() const override { return decoder_.index_buffer(); }
 
  protected:
   Result<void> decode(Bytes payload) override { return decoder_.append(payload); }
@@ -34,11 +37,12 @@ class MeshSplits final : public MeshAsset {
 }  // namespace
 
 Result<std::unique_ptr<AssetDecoder>> open_mesh_splits(const AssetSource& source) {
-  LW_TRY(parameters, MeshParameters::read(source.entry.parameters));
+  const bool has_regions = source.entry.codec == mesh_codec_regions;
+  LW_TRY(parameters, MeshParameters::read(source.entry.parameters, has_regions));
   LW_CHECK(source.context.spend(parameters.layout.buffer_bytes()));
   LW_TRY(base, BaseArrays::read(parameters.layout, parameters.places, source.context.bin));
-  LW_TRY(decoder, MeshDecoder::open(parameters.layout, base.view(), source.entry.length));
-  return std::make_unique<MeshSplits>(source.asset, parameters, std::move(decoder));
+  LW_TRY(decoder, MeshDecoder::open(std::move(parameters.layout), base.view(), source.entry.length));
+  return std::make_unique<MeshSplits>(source.asset, parameters.places, std::move(decoder));
 }
 
 }  // namespace lightwell

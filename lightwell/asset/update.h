@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -37,7 +38,7 @@ struct AttributeLayout {
 struct MeshUpdate {
   uint32_t asset = 0;
   uint32_t vertices = 0;
-  uint32_t faces = 0;  ///< three indices of 32 bits each
+  uint32_t faces = 0;  ///< three indices of 32 bits each; a region's follow one another, as many as there will be
   std::vector<AttributeLayout> attributes;
 };
 
@@ -55,7 +56,8 @@ struct RangeUpdate {
 struct DrawUpdate {
   uint32_t asset = 0;
   uint32_t vertices = 0;
-  uint32_t faces = 0;
+  uint32_t faces = 0;                 ///< of all regions
+  std::span<const uint32_t> regions;  ///< the faces of each, of which there is one at least
 };
 
 /// A whole light grid as the half-float RGBA texture of light/atlas.h. The first update follows the opening with the

@@ -45,7 +45,7 @@ void ReceivedScene::apply(const Update& update) {
     take(*range);
   } else if (const auto* draw = std::get_if<DrawUpdate>(&update)) {
     meshes_[draw->asset].vertices = draw->vertices;
-    meshes_[draw->asset].faces = draw->faces;
+    meshes_[draw->asset].faces.assign(draw->regions.begin(), draw->regions.end());
   } else if (const auto* texture = std::get_if<TextureUpdate>(&update)) {
     images_[texture->asset].assign(texture->file.begin(), texture->file.end());
   } else if (const auto* parts = std::get_if<PartsUpdate>(&update)) {
@@ -68,7 +68,7 @@ void ReceivedScene::take(const RangeUpdate& update) {
   std::copy(update.data.begin(), update.data.end(), target.begin() + static_cast<ptrdiff_t>(update.offset));
 }
 
-Mesh ReceivedScene::mesh_of(const Buffers& buffers) {
+std::vector<Mesh> ReceivedScene::meshes_of(const Buffers& buffers, const std::map<uint32_t, uint32_t>& region_faces) {
   using Semantic = AttributeLayout::Semantic;
   Mesh mesh;
   for (size_t i = 0; i < buffers.attributes.size(); i++) {
@@ -83,22 +83,32 @@ Mesh ReceivedScene::mesh_of(const Buffers& buffers) {
     }
   }
   for (Vec3f& normal : mesh.normals) normal = normalized(normal);
-  ByteReader reader(buffers.indices);
-  for (uint32_t i = 0; i < buffers.faces; i++) {
-    Face& face = mesh.faces.emplace_back();
-    for (uint32_t& corner : face) corner = reader.u32();
+  std::vector<Mesh> meshes;
+  size_t first = 0;
+  for (uint32_t region = 0; region < buffers.faces.size(); region++) {
+    ByteReader reader(Bytes(buffers.indices).subspan(std::min(first, buffers.indices.size())));
+    const auto all = region_faces.find(region);
+    first += all == region_faces.end() ? 0 : size_t(12) * all->second;
+    std::vector<Face> faces(buffers.faces[region]);
+    for (Face& face : faces)
+      for (uint32_t& corner : face) corner = reader.u32();
+    meshes.push_back(buffers.faces.size() > 1 ? mesh_of_faces(mesh, faces) : mesh);
+    if (buffers.faces.size() == 1) meshes.back().faces = std::move(faces);
   }
-  return mesh;
+  return meshes;
 }
 
 Result<std::vector<uint8_t>> ReceivedScene::glb() const {
   if (opening_.empty()) return fail("", "the opening has not come");
   Report report;
   LW_TRY(document, read_document(opening_, {}, report));
-  const PackRefinement refinement{[this](size_t stream) -> Result<Mesh> {
+  LW_TRY(primitives, read_refined_primitives(document.json));
+  std::map<size_t, std::map<uint32_t, uint32_t>> region_faces;  // by stream
+  for (const RefinedPrimitive& refined : primitives) region_faces[refined.stream][refined.region] = refined.faces;
+  const PackRefinement refinement{[&](size_t stream) -> Result<std::vector<Mesh>> {
                                     const auto found = meshes_.find(asset_of_stream(static_cast<uint32_t>(stream)));
                                     if (found == meshes_.end()) return fail("", "a mesh has not come");
-                                    return mesh_of(found->second);
+                                    return meshes_of(found->second, region_faces[stream]);
                                   },
                                   [this](size_t stream) -> Result<std::vector<uint8_t>> {
                                     const auto found = images_.find(asset_of_stream(static_cast<uint32_t>(stream)));

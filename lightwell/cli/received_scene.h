@@ -22,11 +22,12 @@ class ReceivedScene {
     std::vector<AttributeLayout> attributes;
     std::vector<std::vector<uint8_t>> data;  ///< one for each attribute
     std::vector<uint8_t> indices;
-    uint32_t vertices = 0;  ///< to be drawn
-    uint32_t faces = 0;
+    uint32_t vertices = 0;        ///< to be drawn
+    std::vector<uint32_t> faces;  ///< of each region, to be drawn
   };
 
-  static Mesh mesh_of(const Buffers& buffers);
+  /// One for each region, given how many faces each will have.
+  static std::vector<Mesh> meshes_of(const Buffers& buffers, const std::map<uint32_t, uint32_t>& region_faces);
   void take(const MeshUpdate& update);
   void take(const RangeUpdate& update);
 

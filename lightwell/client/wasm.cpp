@@ -12,7 +12,7 @@ using namespace lightwell;
 
 namespace {
 
-constexpr uint32_t abi_version = 1;
+constexpr uint32_t abi_version = 2;
 
 std::vector<uint8_t> input;
 std::array<uint32_t, 32> record;
@@ -52,7 +52,10 @@ struct WriteUpdate {
   uint32_t operator()(const RangeUpdate& update) {
     return answer(3, update.asset, update.buffer, update.offset, address(update.data.data()), update.data.size());
   }
-  uint32_t operator()(const DrawUpdate& update) { return answer(4, update.asset, update.vertices, update.faces); }
+  uint32_t operator()(const DrawUpdate& update) {
+    return answer(4, update.asset, update.vertices, update.faces, address(update.regions.data()),
+                  update.regions.size());
+  }
   uint32_t operator()(const LightUpdate& update) {
     return answer(5, update.asset, update.width, update.height, update.depth, update.nodes,
                   address(update.atlas.data()), update.atlas.size());

@@ -12,7 +12,7 @@
 /// Times are seconds from any start, as a double. Reserved or unused words of the record are 0.
 extern "C" {
 
-/// The version of this interface: 1.
+/// The version of this interface: 2.
 uint32_t lw_abi_version();
 
 /// Creates a client. strategy: 0 interleave, 1 geometry, 2 light. fill: 0 push-pull, 1 push-pull-smooth, 2 none.
@@ -57,7 +57,8 @@ uint32_t lw_work(uint32_t client);
 ///                | numbers a vertex << 16 | stride in bytes << 20 | normalized << 31
 ///   3 range:     [0] asset, [1] buffer (an attribute of the mesh, or 255: indices), [2] offset in bytes,
 ///                [3] pointer, [4] length
-///   4 draw:      [0] asset, [1] vertices, [2] faces: draw 3 * faces indices from now on
+///   4 draw:      [0] asset, [1] vertices, [2] faces: draw so many from now on, [3] pointer, [4] number of regions: of
+///                each how many of its faces, as 32-bit words; its indices lie behind those of the regions before it
 ///   5 light:     [0] asset, [1] width, [2] height, [3] depth, [4] nodes received, [5] pointer, [6] length: RGBA16F texels
 ///   6 texture:   [0] asset, [1] format (0 PNG, 1 JPEG, 2 WebP), [2] width, [3] height, [4] pointer, [5] length:
 ///                an image file

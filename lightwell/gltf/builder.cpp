@@ -82,13 +82,17 @@ int DocumentBuilder::indices(const std::vector<Face>& faces, size_t vertices) {
   return accessor(bytes_of(narrow), static_cast<int>(Component::u16), "SCALAR", count, element_array_buffer);
 }
 
-Json DocumentBuilder::primitive(const Mesh& mesh) {
+Json DocumentBuilder::vertices(const Mesh& mesh) {
   Json attributes = {{"POSITION", accessor(mesh.positions, true)}};
   if (!mesh.normals.empty()) attributes["NORMAL"] = accessor(mesh.normals, false);
   if (!mesh.texcoords[0].empty()) attributes["TEXCOORD_0"] = accessor(mesh.texcoords[0]);
   if (!mesh.texcoords[1].empty()) attributes["TEXCOORD_1"] = accessor(mesh.texcoords[1]);
   if (!mesh.colors.empty()) attributes["COLOR_0"] = colors(mesh.colors);
-  Json primitive = {{"attributes", std::move(attributes)}};
+  return attributes;
+}
+
+Json DocumentBuilder::primitive(const Mesh& mesh) {
+  Json primitive = {{"attributes", vertices(mesh)}};
   primitive["indices"] = indices(mesh.faces, mesh.positions.size());
   return primitive;
 }

@@ -64,6 +64,8 @@ class DocumentBuilder {
   int accessor(const std::vector<Vec2f>& values);
   int colors(const std::vector<Vec4f>& values);  ///< as normalized 16-bit numbers: 8-bit ones would band in the dark
   int indices(const std::vector<Face>& faces, size_t vertices);
+  /// Appends the arrays of a mesh's vertices and returns the JSON of a primitive's attributes.
+  Json vertices(const Mesh& mesh);
   /// Appends the arrays of a mesh and returns the JSON of a primitive with them, without material.
   Json primitive(const Mesh& mesh);
 

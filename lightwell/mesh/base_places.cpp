@@ -48,13 +48,16 @@ bool BasePlaces::only_of(const MeshLayout& layout) const {
          (layout.has_texcoords[1] || texcoords[1] == 0) && (layout.has_colors || colors == 0);
 }
 
-Result<MeshParameters> MeshParameters::read(Bytes parameters) {
+Result<MeshParameters> MeshParameters::read(Bytes parameters, bool has_regions) {
   ByteReader reader(parameters);
-  LW_TRY(layout, MeshLayout::read(reader));
+  MeshParameters out;
+  LW_CHECK(out.layout.read(reader));
   LW_TRY(places, BasePlaces::read(reader));
+  out.places = places;
+  if (has_regions) LW_CHECK(out.layout.read_regions(reader));
   if (reader.remaining() != 0) return fail("mesh parameters", "are too long");
-  if (!places.only_of(layout)) return fail("mesh parameters", "a place of an attribute that there is not");
-  return MeshParameters{layout, places};
+  if (!places.only_of(out.layout)) return fail("mesh parameters", "a place of an attribute that there is not");
+  return out;
 }
 
 Result<BaseArrays> BaseArrays::read(const MeshLayout& layout, const BasePlaces& places, Bytes bin) {

@@ -12,8 +12,8 @@ struct BasePlaces {
   uint32_t normals = 0;                 ///< 12 bytes a vertex; 0 when absent, like the next ones
   std::array<uint32_t, 2> texcoords{};  ///< 8 bytes a vertex
   uint32_t colors = 0;                  ///< 8 bytes a vertex
-  uint32_t indices = 0;
-  bool short_indices = false;  ///< 2 bytes an index, else 4
+  uint32_t indices = 0;                 ///< of all regions, one behind the other
+  bool short_indices = false;           ///< 2 bytes an index, else 4
 
   void write(ByteWriter& writer) const;
   static Result<BasePlaces> read(ByteReader& reader);
@@ -27,7 +27,7 @@ struct MeshParameters {
   BasePlaces places;
 
   /// Errors: those of the two parts, places of attributes that the layout does not have, and trailing bytes.
-  static Result<MeshParameters> read(Bytes parameters);
+  static Result<MeshParameters> read(Bytes parameters, bool has_regions);
 };
 
 /// The arrays of a coarsest level, copied out of the opening.

@@ -9,8 +9,8 @@ namespace {
 
 constexpr uint32_t none = 0xffffffffu;
 
-// Weights, times squared edge length, of Garland and Heckbert's perpendicular planes at border edges and, here, also at
-// edges where texture or colour tears.
+// Weights, times squared edge length, of Garland and Heckbert's perpendicular planes at border edges, those of regions
+// too, and, here, also at edges where texture or colour tears.
 constexpr float border_weight = 3, tear_weight = 1;
 // Share of the squared edge length in the cost, so that of equal edges the shorter one goes first.
 constexpr float length_weight = 1e-2f;
@@ -62,6 +62,11 @@ void CollapseState::link_faces(const QuantizedMesh& mesh) {
     faces_[f] = {{points_.of[v[0]], points_.of[v[1]], points_.of[v[2]]}, v, {none, none, none}};
     sorted[f] = {canonical(faces_[f].points), f};
   }
+  if (mesh.has_regions_apart()) {
+    vertex_region_.resize(mesh.positions.size());
+    for (size_t f = 0; f < faces_.size(); f++)
+      for (const uint32_t v : mesh.faces[f]) vertex_region_[v] = mesh.regions[f];
+  }
   order_.vanished.assign(faces_.size(), CollapseOrder::never);
   std::sort(sorted.begin(), sorted.end());
   for (size_t i = 0; i < sorted.size(); i++) {
@@ -69,9 +74,10 @@ void CollapseState::link_faces(const QuantizedMesh& mesh) {
     const bool degenerate = p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
     if (degenerate || (i > 0 && sorted[i - 1].first == p)) order_.vanished[f] = CollapseOrder::loose;
   }
+  live_faces_.resize(std::max<size_t>(1, mesh.region_shifts.size()));
   for (uint32_t f = 0; f < faces_.size(); f++) {
     if (order_.vanished[f] == CollapseOrder::loose) continue;
-    live_faces_++;
+    live_faces_[region_of(f)]++;
     for (uint32_t k = 0; k < 3; k++) {
       const uint32_t v = faces_[f].points[k];
       faces_[f].next[k] = std::exchange(first_corner_[v], 3 * f + k);
@@ -116,7 +122,7 @@ float CollapseState::edge_weight(const Spoke& spoke, uint32_t x) const {
     sharing++;
     if (other.corner != spoke.corner) opposite = &other;
   }
-  if (sharing != 2) return border_weight;
+  if (sharing != 2 || region_of(spoke.corner / 3) != region_of(opposite->corner / 3)) return border_weight;
   const auto vertex_at = [&](const Spoke& s, uint32_t point) {
     const Corners& face = faces_[s.corner / 3];
     for (size_t k = 0; k < 3; k++)
@@ -201,13 +207,25 @@ float CollapseState::longest_edge(uint32_t v) const {
 
 CollapseState::Choice CollapseState::assess(uint32_t v, const Neighbour& u, float longest) {
   const uint32_t moved = fan_[v] - u.faces;
-  if (fan_bound_[u.point] + moved > max_fan || u.faces == live_faces_) return {};
+  if (fan_bound_[u.point] + moved > max_fan || ends_region(u.point)) return {};
   gather(u.point, target_star_);
   const bool sound = moved > 0 && keeps_border(u) && keeps_orientation(v, u.point) && keeps_links(v, u.point);
   const float harm = (sound ? tear_share * match_vertices(v, u.point) : 1) * longest * longest;
   const float weight = quadric_[v].weight();
   const float deviation = weight > 0 ? quadric_[v].at(position_[u.point] - position_[v]) / weight : 0;
   return {u.point, u.cost + harm * std::max(weight, longest * longest), size_ * std::sqrt(deviation + harm)};
+}
+
+// Whether no face of some region would be left without those that the gathered star shares with u.
+bool CollapseState::ends_region(uint32_t u) const {
+  return std::ranges::any_of(star_, [&](const Spoke& spoke) {
+    if (!spoke.has(u)) return false;
+    const uint16_t region = region_of(spoke.corner / 3);
+    if (live_faces_[region] > star_.size()) return false;
+    return live_faces_[region] == std::ranges::count_if(star_, [&](const Spoke& other) {
+             return other.has(u) && region_of(other.corner / 3) == region;
+           });
+  });
 }
 
 // A point inside a surface may collapse anywhere, one on a border only along it, and one where borders meet not at all.
@@ -289,6 +307,7 @@ float CollapseState::match_vertices(uint32_t v, uint32_t u) {
 }
 
 float CollapseState::attribute_distance(uint32_t vertex, uint32_t other) const {
+  if (!vertex_region_.empty() && vertex_region_[vertex] != vertex_region_[other]) return 1;
   float distance = 0;
   if (!mesh_.normals.empty())
     distance += 0.5f - 0.5f * dot(normal_of(mesh_.normals[vertex]), normal_of(mesh_.normals[other]));
@@ -312,7 +331,7 @@ std::span<const uint32_t> CollapseState::collapse(uint32_t v, uint32_t u) {
     changed_.insert(changed_.end(), {spoke.a, spoke.b});
     if (spoke.has(u)) {
       order_.vanished[f] = faces_[f].vertices[k];
-      live_faces_--;
+      live_faces_[region_of(f)]--;
       fan_[spoke.a]--;
       fan_[spoke.b]--;
       continue;

@@ -34,7 +34,7 @@ class CollapseState {
   /// A lower bound on the cost of the cheapest collapse of v; 0 when it is isolated.
   float least_cost(uint32_t v);
   /// The cheapest collapse of v, which must not be isolated. The cost is infinite when every collapse would make a fan
-  /// above max_fan or remove the last face.
+  /// above max_fan or remove the last face of a region.
   Choice choose(uint32_t v);
   /// Collapses v onto u; locks and returns the points whose faces changed.
   std::span<const uint32_t> collapse(uint32_t v, uint32_t u);
@@ -56,6 +56,8 @@ class CollapseState {
   void add_quadrics();
   void add_edge_planes(uint32_t v);
   float edge_weight(const Spoke& spoke, uint32_t x) const;
+  uint16_t region_of(uint32_t face) const { return mesh_.regions.empty() ? uint16_t(0) : mesh_.regions[face]; }
+  bool ends_region(uint32_t u) const;
   bool torn_between(uint32_t vertex, uint32_t other) const;
 
   void gather(uint32_t v, std::vector<Spoke>& star);
@@ -76,8 +78,9 @@ class CollapseState {
   std::vector<Quadric> quadric_;
   std::vector<Corners> faces_;
   std::vector<uint32_t> first_corner_, fan_, fan_bound_, locked_in_;
+  std::vector<uint16_t> vertex_region_;  // where vertices of different regions stay apart
   uint32_t round_ = 0;
-  uint32_t live_faces_ = 0;
+  std::vector<uint32_t> live_faces_;  // of each region
   CollapseOrder order_;
 
   // Scratch data of the point being examined, kept to save allocations.

@@ -1,12 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/mesh/mesh.h"
 
+#include <utility>
+
 namespace lightwell {
 
 Box3f Mesh::bounds() const {
   Box3f box;
   for (const Vec3f& p : positions) box.extend(p);
   return box;
+}
+
+Mesh mesh_of_faces(const Mesh& vertices, std::vector<Face> faces) {
+  std::vector<uint32_t> number(vertices.positions.size());
+  for (const Face& face : faces)
+    for (const uint32_t v : face) number[v] = 1;
+  Mesh mesh;
+  uint32_t next = 0;
+  for (size_t v = 0; v < number.size(); v++) {
+    if (number[v] == 0) continue;
+    number[v] = next++;
+    mesh.positions.push_back(vertices.positions[v]);
+    if (!vertices.normals.empty()) mesh.normals.push_back(vertices.normals[v]);
+    for (size_t set = 0; set < 2; set++)
+      if (!vertices.texcoords[set].empty()) mesh.texcoords[set].push_back(vertices.texcoords[set][v]);
+    if (!vertices.colors.empty()) mesh.colors.push_back(vertices.colors[v]);
+  }
+  for (Face& face : faces)
+    for (uint32_t& v : face) v = number[v];
+  mesh.faces = std::move(faces);
+  return mesh;
 }
 
 std::vector<Vec3f> smooth_normals(const Mesh& mesh) {

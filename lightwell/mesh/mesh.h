@@ -21,6 +21,9 @@ struct Mesh {
   Box3f bounds() const;
 };
 
+/// The mesh of some faces of another with the vertices that these use, in their order.
+Mesh mesh_of_faces(const Mesh& vertices, std::vector<Face> faces);
+
 /// The unit normal of each vertex: the sum of its faces' normals weighted by their area. A vertex without area gets +y.
 std::vector<Vec3f> smooth_normals(const Mesh& mesh);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace lightwell {
 namespace {
@@ -47,6 +48,7 @@ QuantizedMesh permuted(const QuantizedMesh& mesh, const std::vector<uint32_t>& o
   QuantizedMesh out;
   out.position_lattice = mesh.position_lattice;
   out.texcoord_lattices = mesh.texcoord_lattices;
+  out.region_shifts = mesh.region_shifts;
   out.positions = permuted(mesh.positions, order);
   out.normals = permuted(mesh.normals, order);
   for (size_t set = 0; set < 2; set++) out.texcoords[set] = permuted(mesh.texcoords[set], order);
@@ -55,30 +57,40 @@ QuantizedMesh permuted(const QuantizedMesh& mesh, const std::vector<uint32_t>& o
   return out;
 }
 
-// Adds the faces, renumbered, in order of appearance: those of the coarsest level, those that come with each vertex,
-// loose ones.
+// Adds the faces, renumbered, in order of appearance: those of the coarsest level by region, those that come with each
+// vertex, loose ones.
 void order_faces(const QuantizedMesh& mesh, const CollapseOrder& order, const std::vector<uint32_t>& number,
                  ProgressiveMesh& out) {
   const uint64_t loose_last = number.size();
-  std::vector<std::pair<uint64_t, uint32_t>> appearance(mesh.faces.size());
+  const auto region_of = [&](uint32_t face) { return mesh.regions.empty() ? uint16_t(0) : mesh.regions[face]; };
+  std::vector<std::tuple<uint64_t, uint16_t, uint32_t>> appearance(mesh.faces.size());
   for (uint32_t f = 0; f < mesh.faces.size(); f++) {
     const uint32_t vanished = order.vanished[f];
     const bool base = vanished == CollapseOrder::never, loose = vanished == CollapseOrder::loose;
-    appearance[f] = {base ? 0 : loose ? loose_last : number[vanished], f};
+    appearance[f] = {base ? 0 : loose ? loose_last : number[vanished], base ? region_of(f) : uint16_t(0), f};
     out.base_faces += base;
     out.loose_faces += loose;
   }
   std::sort(appearance.begin(), appearance.end());
-  for (const auto& [when, f] : appearance) {
-    const Face& face = mesh.faces[f];
-    if (when < loose_last) out.appears_with.push_back(static_cast<uint32_t>(when));
-    out.mesh.faces.push_back({number[face[0]], number[face[1]], number[face[2]]});
+  std::vector<std::pair<Face, uint16_t>> loose_faces;
+  for (const auto& [when, base_region, f] : appearance) {
+    const Face& old = mesh.faces[f];
+    Face face{number[old[0]], number[old[1]], number[old[2]]};
+    if (when == loose_last) {
+      // Loose faces lie near others: they are told by their first corner, the least.
+      std::rotate(face.begin(), std::ranges::min_element(face), face.end());
+      loose_faces.emplace_back(face, region_of(f));
+      continue;
+    }
+    out.appears_with.push_back(static_cast<uint32_t>(when));
+    out.mesh.faces.push_back(face);
+    if (!mesh.regions.empty()) out.mesh.regions.push_back(region_of(f));
   }
-  // Loose faces lie near others: they are told by their first corner, the least.
-  const auto loose = out.mesh.faces.end() - static_cast<ptrdiff_t>(out.loose_faces);
-  std::for_each(loose, out.mesh.faces.end(),
-                [](Face& face) { std::rotate(face.begin(), std::ranges::min_element(face), face.end()); });
-  std::sort(loose, out.mesh.faces.end());
+  std::ranges::sort(loose_faces);
+  for (const auto& [face, region] : loose_faces) {
+    out.mesh.faces.push_back(face);
+    if (!mesh.regions.empty()) out.mesh.regions.push_back(region);
+  }
 }
 
 }  // namespace

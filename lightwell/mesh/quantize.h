@@ -20,6 +20,10 @@ struct QuantizeOptions {
   /// Of each vertex the row of what goes with it beside the mesh (a skin's weights). Vertices of different rows stay
   /// apart. Empty: none has anything.
   std::span<const uint32_t> rows = {};
+  /// Of each vertex the region of the mesh that its faces belong to (a primitive of its own, with its own material),
+  /// and of each region its position_error. Empty: one region.
+  std::span<const uint16_t> regions = {};
+  std::span<const float> region_errors = {};
 };
 
 /// The position_error that stands for the default of a mesh whose bounding box has that longest side.
@@ -37,6 +41,14 @@ struct QuantizedMesh {
   std::vector<ColorCode> colors;
   std::vector<uint32_t> rows;  ///< as in QuantizeOptions
   std::vector<Face> faces;
+  std::vector<uint16_t> regions;       ///< of each face; empty: one region
+  std::vector<uint8_t> region_shifts;  ///< positions of a region are multiples of 2^shift steps of the lattice
+
+  /// Whether vertices of different regions stay apart: where they have attributes that only their material gives a
+  /// meaning.
+  bool has_regions_apart() const {
+    return !regions.empty() && !(texcoords[0].empty() && texcoords[1].empty() && colors.empty());
+  }
 };
 
 /// Quantises a mesh whose indices are in range. The vertices are in Morton order of their positions, those of one

@@ -37,7 +37,19 @@ size_t more_room(size_t present, size_t final) { return std::min(std::max<size_t
 
 }  // namespace
 
-Result<Refinement> Refinement::open(const MeshLayout& layout, const MeshArrays& base) {
+Refinement::Refinement(MeshLayout&& layout)
+    : layout_(std::move(layout)), steps_per_unit_(power_of_two(-layout_.positions.exponent)), regions_(1) {
+  for (size_t i = 1; i < layout_.regions.size(); i++)
+    regions_.push_back({regions_.back().first + 3 * layout_.regions[i - 1].faces});
+}
+
+uint16_t Refinement::region_of(uint32_t corner) const {
+  uint16_t region = 0;
+  while (region + 1u < regions_.size() && regions_[region + 1u].first <= corner) region++;
+  return region;
+}
+
+Result<Refinement> Refinement::open(MeshLayout layout, const MeshArrays& base) {
   const uint32_t count = layout.base_vertices;
   if (base.positions.size() != count || !fits(base.normals.size(), layout.has_normals, count) ||
       !fits(base.texcoords[0].size(), layout.has_texcoords[0], count) ||
@@ -48,7 +60,7 @@ Result<Refinement> Refinement::open(const MeshLayout& layout, const MeshArrays& 
     return fail("mesh stream", "the coarsest level's faces are not those of the layout");
   if (std::any_of(base.indices.begin(), base.indices.end(), [&](uint32_t v) { return v >= count; }))
     return fail("mesh stream", "an index of the coarsest level is out of range");
-  Refinement mesh(layout);
+  Refinement mesh(std::move(layout));
   mesh.add_base(base);
   return mesh;
 }
@@ -65,8 +77,13 @@ void Refinement::add_base(const MeshArrays& base) {
     add(vertex, v == 0 || vertex.position != last);
     last = vertex.position;
   }
-  for (size_t i = 0; i < base.indices.size(); i += 3)
-    add_linked({base.indices[i], base.indices[i + 1], base.indices[i + 2]});
+  uint16_t region = 0;
+  uint32_t left = layout_.regions.empty() ? layout_.base_faces : layout_.regions[0].base_faces;
+  for (size_t i = 0; i < base.indices.size(); i += 3) {
+    for (; left == 0; left = layout_.regions[region].base_faces) region++;
+    add_linked({base.indices[i], base.indices[i + 1], base.indices[i + 2]}, region);
+    left--;
+  }
   if (!layout_.has_normals) return;
   for (const Vec3f& normal : base.normals) set_next_normal(normal_code(normal));
   reported_normals_ = final_normals_;
@@ -106,22 +123,26 @@ void Refinement::add(const NewVertex& vertex, bool begins_point) {
     const uint32_t corner = vertex.fan[i].corner;
     if (vertex.moves[i]) {
       index_buffer[corner] = v;
-      if (corner < 3 * reported_faces_) rewired_.push_back(corner);
+      const Region& region = regions_[region_of(corner)];
+      if (corner < region.first + 3 * region.reported_faces) rewired_.push_back(corner);
     }
     link(corner);
   }
-  for (const NewFace& face : vertex.faces) add_linked({v, face.a, face.b});
+  for (const NewFace& face : vertex.faces) add_linked({v, face.a, face.b}, face.region);
 }
 
 // One way through the faces: following each vertex's list takes much longer (docs/decisions/038-mesh-stream.md).
 std::vector<Vec<uint64_t, 3>> Refinement::area_normals() const {
   std::vector<Vec<uint64_t, 3>> sums(vertices());
-  for (size_t i = 0; i < index_buffer.size(); i += 3) {
-    const Vec3i p = position(index_buffer[i]);
-    const Vec<int64_t, 3> a = (position(index_buffer[i + 1]) - p).cast<int64_t>(),
-                          b = (position(index_buffer[i + 2]) - p).cast<int64_t>();
-    const auto area = cross(a, b).cast<uint64_t>();
-    for (size_t k = 0; k < 3; k++) sums[index_buffer[i + k]] += area;
+  for (size_t region = 0; region < layout_.region_count(); region++) {
+    const std::span<const uint32_t> corners = indices(region);
+    for (size_t i = 0; i < corners.size(); i += 3) {
+      const Vec3i p = position(corners[i]);
+      const Vec<int64_t, 3> a = (position(corners[i + 1]) - p).cast<int64_t>(),
+                            b = (position(corners[i + 2]) - p).cast<int64_t>();
+      const auto area = cross(a, b).cast<uint64_t>();
+      for (size_t k = 0; k < 3; k++) sums[corners[i + k]] += area;
+    }
   }
   return sums;
 }
@@ -140,7 +161,8 @@ void Refinement::reserve_vertices(size_t count) {
 
 void Refinement::reserve_faces(size_t count) {
   index_buffer.reserve(3 * count);
-  next_corner_.reserve(3 * std::min<size_t>(count, layout_.faces - layout_.loose_faces));
+  const size_t linked = layout_.regions.empty() ? layout_.faces - layout_.loose_faces : layout_.faces;
+  next_corner_.reserve(3 * std::min<size_t>(count, linked));
 }
 
 void Refinement::add_attributes(const NewVertex& vertex) {
@@ -155,10 +177,18 @@ void Refinement::add_attributes(const NewVertex& vertex) {
   if (layout_.has_colors) color_buffer.push_back(color_value(vertex.color));
 }
 
-void Refinement::add_linked(const Face& face) {
-  const auto first = static_cast<uint32_t>(index_buffer.size());
-  if (index_buffer.size() == index_buffer.capacity()) reserve_faces(more_room(faces(), layout_.faces));
-  index_buffer.insert(index_buffer.end(), face.begin(), face.end());
+// Adds a face to the index buffer, and returns its place there.
+uint32_t Refinement::add_indices(const Face& face, uint16_t region) {
+  const uint32_t place = regions_[region].first + 3 * regions_[region].faces++;
+  faces_++;
+  if (place + 3 > index_buffer.capacity()) reserve_faces(more_room(place / 3 + 1, layout_.faces));
+  if (place + 3 > index_buffer.size()) index_buffer.resize(place + 3);
+  std::ranges::copy(face, index_buffer.begin() + place);
+  return place;
+}
+
+void Refinement::add_linked(const Face& face, uint16_t region) {
+  const uint32_t first = add_indices(face, region);
   next_corner_.resize(index_buffer.size(), no_corner);
   for (uint32_t k = 0; k < 3; k++) link(first + k);
 }
@@ -169,13 +199,16 @@ void Refinement::link(uint32_t corner) {
   fan_size_[v]++;
 }
 
-void Refinement::add_loose(const Face& face) { index_buffer.insert(index_buffer.end(), face.begin(), face.end()); }
+void Refinement::add_loose(const Face& face, uint16_t region) { add_indices(face, region); }
 
 MeshChanges Refinement::take_changes() {
   MeshChanges changes;
   changes.vertices = {reported_vertices_, vertices() - reported_vertices_};
   changes.normals = {reported_normals_, final_normals_ - reported_normals_};
-  changes.indices = {3 * reported_faces_, 3 * (faces() - reported_faces_)};
+  for (Region& region : regions_) {
+    changes.indices.push_back({region.first + 3 * region.reported_faces, 3 * (region.faces - region.reported_faces)});
+    region.reported_faces = region.faces;
+  }
   // Heap sort is a quarter of std::sort's code, whose size counts in a web page.
   std::ranges::make_heap(rewired_);
   std::ranges::sort_heap(rewired_);
@@ -189,7 +222,6 @@ MeshChanges Refinement::take_changes() {
   rewired_.clear();
   reported_vertices_ = vertices();
   reported_normals_ = final_normals_;
-  reported_faces_ = faces();
   return changes;
 }
 

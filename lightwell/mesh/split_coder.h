@@ -37,7 +37,7 @@ class SplitCoder {
   }
   /// A face of existing vertices that takes no part in the refinement: mostly one with two corners at one place.
   template <typename Coder>
-  bool loose_face(Coder& coder, const Refinement& mesh, Face& face);
+  bool loose_face(Coder& coder, const Refinement& mesh, Face& face, uint16_t& region);
   /// A new vertex whose parent is one of `parent_point`. Its position is coded if it begins a point, otherwise given in
   /// v. False if no encoder writes such a stream.
   template <typename Coder>
@@ -67,6 +67,10 @@ class SplitCoder {
   template <typename Coder>
   bool explicit_faces(Coder& coder, const Refinement& mesh, NewVertex& v);
   template <typename Coder>
+  bool regions(Coder& coder, const Refinement& mesh, NewVertex& v);
+  template <typename Coder>
+  bool region(Coder& coder, const Refinement& mesh, uint16_t likely, uint16_t& value);
+  template <typename Coder>
   bool position(Coder& coder, const Refinement& mesh, const Surroundings& around, NewVertex& v);
   template <typename Coder>
   bool texcoord(Coder& coder, const Refinement& mesh, int set, NewVertex& v);
@@ -75,13 +79,14 @@ class SplitCoder {
 
   void gather_ring(const NewVertex& v);
   bool are_implied(const NewVertex& v) const;
+  static uint8_t shift_of(const Refinement& mesh, const NewVertex& v);
   static Surroundings surroundings(const Refinement& mesh, const NewVertex& v);
 
-  AdaptiveNatural count_, parent_in_point_, explicit_count_, explicit_corner_, loose_first_, loose_corner_;
+  AdaptiveNatural count_, parent_in_point_, explicit_count_, explicit_corner_, loose_first_, loose_corner_, region_;
   std::array<std::array<std::array<AdaptiveBit, 4>, 12>, 2> splits_;
   std::array<AdaptiveBit, 2> one_more_;
   FanCoder fan_;
-  AdaptiveBit explicit_;
+  AdaptiveBit explicit_, on_lattice_, in_likely_region_;
   std::array<std::array<AdaptiveBit, 3>, 3> has_face_, turned_;
   std::array<AdaptiveInteger, 54> tangential_, along_normal_;
   std::array<AdaptiveInteger, 24> texcoord_;
@@ -93,6 +98,7 @@ class SplitCoder {
   std::vector<Spoke> loose_fan_;
   std::vector<uint32_t> near_;  // vertices that corners are probably among
   uint32_t last_loose_ = 0;
+  uint16_t last_region_ = 0;
 };
 
 // Calls use(a, b) for the other two corners of each face that the new vertex will have.
@@ -115,6 +121,7 @@ bool SplitCoder::new_vertex(Coder& coder, const Refinement& mesh, uint32_t paren
   if (!Coder::writes) v.moves.resize(v.fan.size());
   if (!fan_.moves(coder, mesh, v)) return false;
   if (!faces(coder, mesh, v)) return false;
+  if (!mesh.layout().regions.empty() && !regions(coder, mesh, v)) return false;
   const Surroundings around = surroundings(mesh, v);
   if (begins_point && !position(coder, mesh, around, v)) return false;
   // The area normal of a closed ring does not depend on where in it the vertex is.
@@ -151,9 +158,10 @@ void SplitCoder::implied_faces(Coder& coder, NewVertex& v) {
     const bool exists = Coder::writes && known != v.faces.end();
     if (!coder.bit(has_face_[x.moving][x.staying], exists)) continue;
     const bool turned = coder.bit(turned_[x.moving][x.staying], exists && (known->a == x.vertex) != x.before_parent);
-    const uint32_t source = exists ? known->source : 0;
-    coded_.push_back(turned != x.before_parent ? NewFace{x.vertex, v.parent, source}
-                                               : NewFace{v.parent, x.vertex, source});
+    NewFace face = exists ? *known : NewFace{};
+    face.a = turned != x.before_parent ? x.vertex : v.parent;
+    face.b = turned != x.before_parent ? v.parent : x.vertex;
+    coded_.push_back(face);
   }
   std::swap(v.faces, coded_);
 }
@@ -182,9 +190,45 @@ bool SplitCoder::explicit_faces(Coder& coder, const Refinement& mesh, NewVertex&
   return true;
 }
 
+// The region of a face is mostly that of one beside.
+template <typename Coder>
+bool SplitCoder::region(Coder& coder, const Refinement& mesh, uint16_t likely, uint16_t& value) {
+  if (coder.bit(in_likely_region_, value == likely))
+    value = likely;
+  else
+    value = static_cast<uint16_t>(coder.natural(region_, value));
+  last_region_ = value;
+  return value < mesh.layout().regions.size();
+}
+
+// Beside a new face is the first face of the fan that has a corner besides the parent in common with it.
+template <typename Coder>
+bool SplitCoder::regions(Coder& coder, const Refinement& mesh, NewVertex& v) {
+  for (NewFace& face : v.faces) {
+    const auto beside = std::ranges::find_if(v.fan, [&](const Spoke& spoke) {
+      return (face.a != v.parent && spoke.has(face.a)) || (face.b != v.parent && spoke.has(face.b));
+    });
+    const uint16_t likely = beside == v.fan.end() ? last_region_ : mesh.region_of(beside->corner);
+    if (!region(coder, mesh, likely, face.region)) return false;
+  }
+  return true;
+}
+
+// How coarse the lattice is on which all the vertex's faces lie. Faces of regions of different lattices hardly ever
+// meet.
+inline uint8_t SplitCoder::shift_of(const Refinement& mesh, const NewVertex& v) {
+  const std::vector<RegionLayout>& regions = mesh.layout().regions;
+  if (regions.empty()) return 0;
+  uint8_t shift = MeshLayout::most_shift + 1;
+  for (size_t i = 0; i < v.fan.size(); i++)
+    if (v.moves[i]) shift = std::min(shift, regions[mesh.region_of(v.fan[i].corner)].shift);
+  for (const NewFace& face : v.faces) shift = std::min(shift, regions[face.region].shift);
+  return shift > MeshLayout::most_shift ? uint8_t(0) : shift;
+}
+
 // Loose faces come by their first corner, which is no later than the others.
 template <typename Coder>
-bool SplitCoder::loose_face(Coder& coder, const Refinement& mesh, Face& face) {
+bool SplitCoder::loose_face(Coder& coder, const Refinement& mesh, Face& face, uint16_t& region_of_face) {
   const uint32_t step = coder.natural(loose_first_, face[0] - last_loose_);
   if (step >= mesh.vertices() - last_loose_) return false;
   face[0] = last_loose_ += step;
@@ -197,17 +241,23 @@ bool SplitCoder::loose_face(Coder& coder, const Refinement& mesh, Face& face) {
   }
   if (!vertex(coder, mesh, loose_corner_, face[1])) return false;
   near_[0] = face[1];
-  return vertex(coder, mesh, loose_corner_, face[2]);
+  if (!vertex(coder, mesh, loose_corner_, face[2])) return false;
+  return mesh.layout().regions.empty() || region(coder, mesh, last_region_, region_of_face);
 }
 
 // The position is predicted from the new vertex's neighbours: their mean, drawn towards the parent and away from the
 // neighbours that both have, by shares that regression found on scans of all kinds. The residual is coded along two
 // axes across the surface and, on the third, as the height over the plane of the neighbours: a shear, hence exact in
-// integers.
+// integers. Where the faces lie on a coarser lattice, in steps of that.
 template <typename Coder>
 bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundings& around, NewVertex& v) {
   const Vec3i parent = mesh.position(v.parent);
-  const auto scale = static_cast<size_t>(std::bit_width(static_cast<uint64_t>(around.spread)));
+  int shift = shift_of(mesh, v);
+  if (shift > 0) {
+    const int below = (1 << shift) - 1;
+    if (!coder.bit(on_lattice_, ((v.position[0] | v.position[1] | v.position[2]) & below) == 0)) shift = 0;
+  }
+  const auto scale = static_cast<size_t>(std::bit_width(static_cast<uint64_t>(around.spread) >> (2 * shift)));
   int up = 0;
   for (int i = 1; i < 3; i++)
     if (std::abs(around.normal[i]) > std::abs(around.normal[up])) up = i;
@@ -218,10 +268,11 @@ bool SplitCoder::position(Coder& coder, const Refinement& mesh, const Surroundin
                         (8 * (parent[axis] - around.mean[axis]) - 3 * (around.shared[axis] - around.mean[axis])) / 32;
     if (axis == up && around.normal[up] != 0) predicted -= height / around.normal[up];
     AdaptiveInteger& model = axis == up ? along_normal_[scale] : tangential_[scale];
-    const int64_t residual = coder.integer(model, static_cast<int32_t>(v.position[axis] - predicted));
-    if (std::abs(predicted + residual) > Lattice::limit) return false;
-    v.position[axis] = static_cast<int>(predicted + residual);
-    height += around.normal[axis] * residual;
+    const int64_t half_step = (int64_t(1) << shift) / 2, nearest = (predicted + half_step) >> shift;
+    const int64_t value = nearest + coder.integer(model, static_cast<int32_t>((v.position[axis] >> shift) - nearest));
+    if (std::abs(value) > Lattice::limit >> shift) return false;
+    v.position[axis] = static_cast<int>(value * (int64_t(1) << shift));
+    height += around.normal[axis] * (v.position[axis] - predicted);
   }
   return true;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include "lightwell/mesh/normal_coder.h"
@@ -20,24 +21,37 @@ tl::unexpected<Error> corrupt(std::string_view reason) { return fail("mesh block
 
 }  // namespace
 
-Result<MeshLayout> MeshLayout::read(ByteReader& reader) {
-  MeshLayout layout;
-  layout.vertices = reader.u32();
-  layout.faces = reader.u32();
-  layout.base_vertices = reader.u32();
-  layout.base_faces = reader.u32();
-  layout.loose_faces = reader.u32();
-  layout.base_error = reader.f32();
+Result<void> MeshLayout::read(ByteReader& reader) {
+  for (uint32_t* count : {&vertices, &faces, &base_vertices, &base_faces, &loose_faces}) *count = reader.u32();
+  base_error = reader.f32();
   const uint8_t flags = reader.u8();
-  layout.has_normals = flags & 1;
-  layout.has_texcoords = {(flags & 2) != 0, (flags & 4) != 0};
-  layout.has_colors = flags & 8;
-  for (Lattice* lattice : {&layout.positions, &layout.texcoords[0], &layout.texcoords[1]})
+  has_normals = flags & 1;
+  has_texcoords = {(flags & 2) != 0, (flags & 4) != 0};
+  has_colors = flags & 8;
+  for (Lattice* lattice : {&positions, &texcoords[0], &texcoords[1]})
     lattice->exponent = static_cast<int8_t>(reader.u8());
   if (!reader.ok()) return fail("mesh layout", "too short");
   if (flags > 15) return fail(ErrorKind::unsupported, "mesh layout", "an unknown attribute");
-  LW_CHECK(layout.check());
-  return layout;
+  return check();
+}
+
+Result<void> MeshLayout::read_regions(ByteReader& reader) {
+  constexpr size_t bytes = 9;
+  const size_t count = reader.remaining() / bytes;
+  if (reader.remaining() != count * bytes || count == 0 || count > most_regions)
+    return fail("mesh layout", "no regions, or too many");
+  regions.resize(count);
+  for (RegionLayout& region : regions) {
+    region.faces = reader.u32();
+    region.base_faces = reader.u32();
+    region.shift = reader.u8();
+  }
+  return check();
+}
+
+float MeshLayout::step_of(size_t region) const {
+  if (regions.empty()) return positions.step();
+  return positions.step() * power_of_two(regions[region].shift + most_shift_between);
 }
 
 uint64_t MeshLayout::buffer_bytes() const {
@@ -56,6 +70,14 @@ Result<void> MeshLayout::check() const {
   if (vertices > most_elements || faces > most_elements) return fail(ErrorKind::limit, "mesh layout", "too large");
   if (base_vertices > vertices || base_faces > faces || loose_faces > faces - base_faces)
     return fail("mesh layout", "its coarsest level is larger than its final one");
+  uint64_t of_regions = 0, of_base = 0;
+  for (const RegionLayout& region : regions) {
+    if (region.base_faces > region.faces || region.shift > most_shift) of_regions += most_elements;
+    of_regions += region.faces;
+    of_base += region.base_faces;
+  }
+  if (!regions.empty() && (of_regions != faces || of_base != base_faces))
+    return fail("mesh layout", "its regions do not make up its faces");
   return {};
 }
 
@@ -69,6 +91,11 @@ struct MeshDecoder::State {
   Result<void> add_normal(ModelReader& reader);
   bool has_all_faces() const {
     return mesh.vertices() == mesh.layout().vertices && mesh.faces() == mesh.layout().faces;
+  }
+  /// Whether its region has room for one more face beside so many that are about to come.
+  bool has_room(uint16_t region, size_t coming) const {
+    const std::vector<RegionLayout>& regions = mesh.layout().regions;
+    return regions.empty() || mesh.indices(region).size() / 3 + coming < regions[region].faces;
   }
   /// Deducts vertices and faces from payload_elements; fails when fewer are left.
   Result<void> spend(size_t elements);
@@ -84,12 +111,12 @@ struct MeshDecoder::State {
   NewVertex vertex;
 };
 
-Result<MeshDecoder> MeshDecoder::open(const MeshLayout& layout, const MeshArrays& base, uint64_t stream_bytes) {
+Result<MeshDecoder> MeshDecoder::open(MeshLayout layout, const MeshArrays& base, uint64_t stream_bytes) {
   LW_CHECK(layout.check());
   const uint64_t added = uint64_t(layout.vertices - layout.base_vertices) + (layout.faces - layout.base_faces);
   if (added / elements_per_byte > stream_bytes)
     return fail("mesh stream", "it promises more vertices and faces than its bytes can hold");
-  LW_TRY(mesh, Refinement::open(layout, base));
+  LW_TRY(mesh, Refinement::open(std::move(layout), base));
   return MeshDecoder(std::make_unique<State>(std::move(mesh)));
 }
 
@@ -145,6 +172,12 @@ Result<void> MeshDecoder::State::add_vertex(ModelReader& reader, uint32_t parent
     return corrupt("an impossible split");
   if (reader.overrun()) return corrupt("too short");
   if (vertex.faces.size() > layout.faces - layout.loose_faces - mesh.faces()) return corrupt("too many faces");
+  for (size_t i = 0; i < vertex.faces.size(); i++) {
+    const uint16_t region = vertex.faces[i].region;
+    const auto before = std::span(vertex.faces).first(i);
+    if (!has_room(region, static_cast<size_t>(std::ranges::count(before, region, &NewFace::region))))
+      return corrupt("too many faces in a region");
+  }
   LW_CHECK(spend(1 + vertex.faces.size()));
   mesh.add(vertex, begins_point);
   coder.note(vertex);
@@ -154,12 +187,14 @@ Result<void> MeshDecoder::State::add_vertex(ModelReader& reader, uint32_t parent
 Result<void> MeshDecoder::State::add_loose_face(ModelReader& reader) {
   const MeshLayout& layout = mesh.layout();
   Face face{};
+  uint16_t region = 0;
   if (mesh.vertices() < layout.vertices || mesh.faces() < layout.faces - layout.loose_faces ||
-      mesh.faces() == layout.faces || !coder.loose_face(reader, mesh, face))
+      mesh.faces() == layout.faces || !coder.loose_face(reader, mesh, face, region))
     return corrupt("an impossible loose face");
+  if (!has_room(region, 0)) return corrupt("too many faces in a region");
   if (reader.overrun()) return corrupt("too short");
   LW_CHECK(spend(1));
-  mesh.add_loose(face);
+  mesh.add_loose(face, region);
   return {};
 }
 
@@ -196,7 +231,8 @@ std::span<const Vec2f> MeshDecoder::texcoords(int set) const {
   return state_->mesh.texcoord_buffers[static_cast<size_t>(set)];
 }
 std::span<const Color16> MeshDecoder::colors() const { return state_->mesh.color_buffer; }
-std::span<const uint32_t> MeshDecoder::indices() const { return state_->mesh.index_buffer; }
+std::span<const uint32_t> MeshDecoder::indices(size_t region) const { return state_->mesh.indices(region); }
+std::span<const uint32_t> MeshDecoder::index_buffer() const { return state_->mesh.index_buffer; }
 MeshChanges MeshDecoder::take_changes() { return state_->mesh.take_changes(); }
 
 }  // namespace lightwell

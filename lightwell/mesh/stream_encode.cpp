@@ -28,6 +28,7 @@ QuantizedMesh base_of(const ProgressiveMesh& mesh) {
   for (size_t set = 0; set < 2; set++) base.texcoords[set] = head(mesh.mesh.texcoords[set], vertices);
   base.colors = head(mesh.mesh.colors, vertices);
   base.faces = head(mesh.mesh.faces, mesh.base_faces);
+  base.regions = head(mesh.mesh.regions, mesh.base_faces);
   for (Face& face : base.faces)
     for (uint32_t& v : face) v = mesh.ancestor(v, vertices);
   return base;
@@ -46,6 +47,12 @@ MeshLayout layout_of(const ProgressiveMesh& mesh) {
   layout.positions = mesh.mesh.position_lattice;
   layout.texcoords = mesh.mesh.texcoord_lattices;
   layout.base_error = mesh.passes.empty() ? 0 : mesh.passes[0].error;
+  for (const uint8_t shift : mesh.mesh.region_shifts) layout.regions.push_back({.shift = shift});
+  for (uint32_t f = 0; f < mesh.mesh.regions.size(); f++) {
+    RegionLayout& region = layout.regions[mesh.mesh.regions[f]];
+    region.faces++;
+    region.base_faces += f < mesh.base_faces;
+  }
   return layout;
 }
 
@@ -71,8 +78,11 @@ class Encoder {
     out_.layout = layout_of(mesh);
     out_.base = dequantize(base_);
     level_.emplace(open_base(out_.layout, out_.base, base_));
+    finals_.resize(3 * mesh.mesh.faces.size());
+    next_place_.push_back(0);
+    for (const RegionLayout& region : out_.layout.regions) next_place_.push_back(next_place_.back() + 3 * region.faces);
     for (uint32_t f = 0; f < mesh.base_faces; f++)
-      finals_.insert(finals_.end(), mesh.mesh.faces[f].begin(), mesh.mesh.faces[f].end());
+      for (uint32_t k = 0; k < 3; k++) finals_[next_place_[region_of(f)]++] = mesh.mesh.faces[f][k];
   }
 
   EncodedMesh run(uint32_t block_vertices) {
@@ -152,7 +162,7 @@ class Encoder {
     level_->add(vertex, begins_point);
     coder_.note(vertex);
     for (const NewFace& face : vertex.faces)
-      for (uint32_t k = 0; k < 3; k++) finals_.push_back(final_corner(face.source, k));
+      for (uint32_t k = 0; k < 3; k++) finals_[next_place_[face.region]++] = final_corner(face.source, k);
   }
 
   // The k-th corner, in the final level, of the face of `source`, counted from the corner of `source` (3 * face +
@@ -164,7 +174,8 @@ class Encoder {
     uint32_t source = 3 * next_face_;
     while (mesh_.ancestor(mesh_.mesh.faces[next_face_][source % 3], v + 1) != v) source++;
     const Face& face = mesh_.mesh.faces[next_face_];
-    return {mesh_.ancestor(face[(source + 1) % 3], v + 1), mesh_.ancestor(face[(source + 2) % 3], v + 1), source};
+    return {mesh_.ancestor(face[(source + 1) % 3], v + 1), mesh_.ancestor(face[(source + 2) % 3], v + 1), source,
+            region_of(next_face_)};
   }
 
   void set_attributes(NewVertex& vertex, uint32_t v) const {
@@ -176,10 +187,15 @@ class Encoder {
   }
 
   void add_loose_face(ModelWriter& writer) {
+    uint16_t region = region_of(next_face_);
     Face face = mesh_.mesh.faces[next_face_++];
-    const bool coded = coder_.loose_face(writer, *level_, face);
+    const bool coded = coder_.loose_face(writer, *level_, face, region);
     LW_ASSERT(coded);
-    level_->add_loose(face);
+    level_->add_loose(face, region);
+  }
+
+  uint16_t region_of(uint32_t face) const {
+    return mesh_.mesh.regions.empty() ? uint16_t(0) : mesh_.mesh.regions[face];
   }
 
   void add_normal(ModelWriter& writer) {
@@ -207,7 +223,8 @@ class Encoder {
   size_t pass_ = 0;
   bool again_ = false;
   uint32_t next_face_;
-  std::vector<uint32_t> finals_;  // what each index of the current level becomes in the final one
+  std::vector<uint32_t> finals_;      // what each index of the current level becomes in the final one
+  std::vector<uint32_t> next_place_;  // in the index buffer, of the next face of each region
 };
 
 }  // namespace
@@ -222,6 +239,14 @@ void MeshLayout::write(ByteWriter& writer) const {
   writer.u8(static_cast<uint8_t>(has_normals | has_texcoords[0] << 1 | has_texcoords[1] << 2 | has_colors << 3));
   for (const Lattice& lattice : {positions, texcoords[0], texcoords[1]})
     writer.u8(static_cast<uint8_t>(lattice.exponent));
+}
+
+void MeshLayout::write_regions(ByteWriter& writer) const {
+  for (const RegionLayout& region : regions) {
+    writer.u32(region.faces);
+    writer.u32(region.base_faces);
+    writer.u8(region.shift);
+  }
 }
 
 EncodedMesh encode(const ProgressiveMesh& mesh, uint32_t block_vertices) { return Encoder(mesh).run(block_vertices); }

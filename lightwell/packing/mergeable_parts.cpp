@@ -199,11 +199,13 @@ void keep_those_alone(const Scene& scene, const std::vector<int>& alike, std::ve
 
 }  // namespace
 
+unsigned attributes_of(const Mesh& mesh) {
+  return (mesh.normals.empty() ? 0u : 1u) | (mesh.texcoords[0].empty() ? 0u : 2u) |
+         (mesh.texcoords[1].empty() ? 0u : 4u) | (mesh.colors.empty() ? 0u : 8u);
+}
+
 PartKind kind_of(const Primitive& primitive, const std::vector<int>& alike) {
-  const Mesh& mesh = primitive.mesh;
-  const unsigned attributes = (mesh.normals.empty() ? 0u : 1u) | (mesh.texcoords[0].empty() ? 0u : 2u) |
-                              (mesh.texcoords[1].empty() ? 0u : 4u) | (mesh.colors.empty() ? 0u : 8u);
-  return {primitive.material < 0 ? -1 : alike[static_cast<size_t>(primitive.material)], attributes};
+  return {primitive.material < 0 ? -1 : alike[static_cast<size_t>(primitive.material)], attributes_of(primitive.mesh)};
 }
 
 MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> lamps) {

@@ -25,6 +25,9 @@ struct MergeableParts {
 /// be worth a stream of its own, or is shown so often that its copies would take more bytes than that and its nodes.
 MergeableParts mergeable_parts(const Scene& scene, std::span<const ClientLamp> lamps);
 
+/// The attributes that a mesh has, a bit for each.
+unsigned attributes_of(const Mesh& mesh);
+
 /// What primitives need in common to be merged: material and attributes.
 using PartKind = std::pair<int, unsigned>;
 PartKind kind_of(const Primitive& primitive, const std::vector<int>& alike);

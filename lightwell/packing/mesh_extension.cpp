@@ -45,9 +45,12 @@ Result<RefinedPrimitive> read_refined_primitive(const Json& json, const std::str
   MemberReader reader(json, name);
   RefinedPrimitive refined;
   refined.stream = reader.whole("stream");
-  refined.vertices = reader.whole("vertices");
+  if (reader.has("region")) refined.region = reader.whole("region");
   refined.faces = reader.whole("faces");
-  refined.error = reader.real("error");
+  if (refined.region == 0) {
+    refined.vertices = reader.whole("vertices");
+    refined.error = reader.real("error");
+  }
   const Json& box = reader.object("bounds");
   LW_CHECK(reader.finish(true));
   MemberReader bounds(box, name + ".bounds");
@@ -63,10 +66,14 @@ Result<RefinedPrimitive> read_refined_primitive(const Json& json, const std::str
 
 Json to_json(const RefinedPrimitive& refined) {
   Json json = {{"stream", refined.stream},
-               {"vertices", refined.vertices},
                {"faces", refined.faces},
-               {"bounds", {{"min", to_json(refined.bounds.lo)}, {"max", to_json(refined.bounds.hi)}}},
-               {"error", to_json(refined.error)}};
+               {"bounds", {{"min", to_json(refined.bounds.lo)}, {"max", to_json(refined.bounds.hi)}}}};
+  if (refined.region > 0) {
+    json["region"] = refined.region;
+  } else {
+    json["vertices"] = refined.vertices;
+    json["error"] = to_json(refined.error);
+  }
   if (refined.deformation)
     json["deformation"] = {{"attributes", refined.deformation->attributes}, {"targets", refined.deformation->targets}};
   return json;

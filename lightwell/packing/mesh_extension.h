@@ -23,13 +23,15 @@ struct DeformationAccessors {
   bool operator==(const DeformationAccessors&) const = default;
 };
 
-/// A primitive that a stream refines.
+/// A primitive that a stream refines, or a region of one.
 struct RefinedPrimitive {
   uint32_t stream = 0;
-  uint32_t vertices = 0, faces = 0;  ///< of the final level
-  Box3f bounds;                      ///< of the input mesh
-  float error = 0;                   ///< of the coarsest level, in the mesh's own units
-  size_t mesh = 0, primitive = 0;    ///< its place in the JSON: meshes[mesh].primitives[primitive]
+  uint32_t region = 0;
+  uint32_t vertices = 0;           ///< of the stream's final level; said of region 0 alone
+  uint32_t faces = 0;              ///< of it, in this region
+  Box3f bounds;                    ///< at all levels
+  float error = 0;                 ///< of the coarsest level, in the mesh's own units; said of region 0 alone
+  size_t mesh = 0, primitive = 0;  ///< its place in the JSON: meshes[mesh].primitives[primitive]
   std::optional<DeformationAccessors> deformation = {};
 
   bool operator==(const RefinedPrimitive&) const = default;

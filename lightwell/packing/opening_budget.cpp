@@ -12,6 +12,8 @@ namespace {
 
 // Bytes of a primitive and its arrays in the JSON; measured on scenes of up to a hundred of them.
 constexpr uint64_t primitive_bytes = 400;
+// And of one that shares all arrays but its indices with others.
+constexpr uint64_t region_bytes = 260;
 
 // Of a stream in JSON and directory, which has a row for each of its first blocks.
 uint64_t stream_bytes(size_t vertices) {
@@ -30,7 +32,7 @@ uint64_t bytes_per_vertex(const Mesh& mesh) {
 
 uint64_t opening_bytes(const Mesh& mesh, size_t vertices, size_t faces) {
   const uint64_t bytes_per_index = vertices > 65535 ? 4 : 2;
-  return primitive_bytes + bytes_per_vertex(mesh) * vertices + 3 * bytes_per_index * faces;
+  return bytes_per_vertex(mesh) * vertices + 3 * bytes_per_index * faces;
 }
 
 // Whether a streamed form is hardly smaller than the whole mesh. A stream also costs a request and the bytes of its
@@ -51,16 +53,18 @@ size_t next_better(const std::vector<OpeningForm>& forms, size_t form) {
 
 std::vector<OpeningForm> opening_forms(const Mesh& mesh, const SimplifiedMesh& simplified, float scale) {
   const std::vector<SimplifiedMesh::Level> levels = simplified.levels();
-  std::vector<OpeningForm> forms = {{opening_bytes(mesh, mesh.positions.size(), mesh.faces.size()), 0}};
+  const uint64_t regions = std::max<uint64_t>(1, simplified.mesh.region_shifts.size());
+  const uint64_t whole = opening_bytes(mesh, mesh.positions.size(), mesh.faces.size());
+  std::vector<OpeningForm> forms = {{regions * primitive_bytes + whole, 0}};
+  const uint64_t json = primitive_bytes + (regions - 1) * region_bytes + stream_bytes(mesh.positions.size());
   for (size_t i = 1; i < levels.size(); i++)
-    forms.push_back({opening_bytes(mesh, levels[i].vertices, levels[i].faces) + stream_bytes(mesh.positions.size()),
-                     levels[i].error * scale});
+    forms.push_back({json + opening_bytes(mesh, levels[i].vertices, levels[i].faces), levels[i].error * scale});
   return forms;
 }
 
-OpeningBudget OpeningBudget::of(size_t meshes, float scene_size) {
-  constexpr uint64_t usual = 40 << 10, most = 256 << 10, each = 1536;
-  return {usual, std::clamp<uint64_t>(each * meshes, usual, most), scene_size / 50};
+OpeningBudget OpeningBudget::of(size_t meshes, size_t more_regions, float scene_size) {
+  constexpr uint64_t usual = 40 << 10, most = 256 << 10, each = 1536, each_region = 1100;
+  return {usual, std::clamp<uint64_t>(each * meshes + each_region * more_regions, usual, most), scene_size / 50};
 }
 
 OpeningBudget OpeningBudget::beside(uint64_t rest) {

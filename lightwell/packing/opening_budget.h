@@ -27,9 +27,9 @@ struct OpeningBudget {
   float likeness = 0;
 
   /// `bytes` is 40 KB, which leaves room for the rest of the opening in a first request of 64 KB. `likeness` is 1/50 of
-  /// `scene_size` (metres); up to it, the budget is 1.5 KB a mesh, from 40 to 256 KB, since scenes of many parts are
-  /// unrecognisable with less.
-  static OpeningBudget of(size_t meshes, float scene_size);
+  /// `scene_size` (metres); up to it, the budget is 1.5 KB a mesh and 1.1 KB for each region beside the first, from 40
+  /// to 256 KB, since scenes of many parts are unrecognisable with less.
+  static OpeningBudget of(size_t meshes, size_t more_regions, float scene_size);
   /// Of a scene whose parts are merged: what `rest` bytes of the opening, an estimate, leave of that request,
   /// at least 40 KB.
   static OpeningBudget beside(uint64_t rest);

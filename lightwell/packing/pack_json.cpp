@@ -28,13 +28,14 @@ std::vector<GridDescription> describe(const PackLight& light, const PackContent&
   return grids;
 }
 
-RefinedPrimitive describe(const StreamedMesh& mesh, const Primitive& source, size_t stream) {
+RefinedPrimitive describe(const StreamedMesh& mesh, size_t region, const Primitive& source, size_t stream) {
   const MeshLayout& layout = mesh.encoded.layout;
   return {static_cast<uint32_t>(stream),
-          layout.vertices,
-          layout.faces,
-          mesh.bounds,
-          layout.base_error,
+          static_cast<uint32_t>(region),
+          region == 0 ? layout.vertices : 0,
+          layout.regions.empty() ? layout.faces : layout.regions[region].faces,
+          mesh.bounds[region],
+          region == 0 ? layout.base_error : 0,
           static_cast<size_t>(source.source_mesh),
           static_cast<size_t>(source.source_primitive),
           mesh.accessors};
@@ -44,12 +45,13 @@ RefinedPrimitive describe(const StreamedMesh& mesh, const Primitive& source, siz
 
 void add_extensions(Document& document, const Scene& scene, const PackLight& light, const PackContent& content) {
   Json& json = document.json;
-  for (size_t i = 0; i < content.meshes.size(); i++) {
-    const Primitive& source = scene.primitives[static_cast<size_t>(content.meshes[i].primitive)];
-    const RefinedPrimitive refined = describe(content.meshes[i], source, content.mesh_stream(i));
-    json["meshes"][refined.mesh]["primitives"][refined.primitive]["extensions"][mesh_extension] = to_json(refined);
-    use_extension(json, mesh_extension);
-  }
+  for (size_t i = 0; i < content.meshes.size(); i++)
+    for (size_t region = 0; region < content.meshes[i].primitives.size(); region++) {
+      const Primitive& source = scene.primitives[static_cast<size_t>(content.meshes[i].primitives[region])];
+      const RefinedPrimitive refined = describe(content.meshes[i], region, source, content.mesh_stream(i));
+      json["meshes"][refined.mesh]["primitives"][refined.primitive]["extensions"][mesh_extension] = to_json(refined);
+      use_extension(json, mesh_extension);
+    }
   for (size_t i = 0; i < content.images.size(); i++)
     for (Json& texture : json["textures"]) {
       if (index_of(texture, "source") != content.images[i].image) continue;

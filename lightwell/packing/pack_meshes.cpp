@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -41,15 +42,15 @@ class Cancellation : public Progress {
 // A level with fewer vertices shows nothing of a shape.
 constexpr uint32_t fewest_vertices = 8;
 
-// A primitive that a stream can refine.
+// What a stream can refine: a primitive, or several as the regions of one mesh.
 struct Source {
-  int primitive = 0;
+  MeshGroup primitives;
   float scale = 0;  // the largest factor by which an instance, or its pose, stretches its lengths
   const Mesh* posed = nullptr;
   std::optional<DeformingMesh> deforming = {};
-  const MergedMesh* merged = nullptr;
+  std::optional<UnitedMesh> regions = {};
 
-  const Mesh& mesh() const { return deforming ? deforming->mesh : *posed; }
+  const Mesh& mesh() const { return deforming ? deforming->mesh : regions ? regions->mesh : *posed; }
 };
 
 std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive& primitive) {
@@ -67,24 +68,29 @@ std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive&
   return DeformingMesh{std::move(rest->mesh), std::move(*deformation), std::move(rest->rows)};
 }
 
+Source source_of(const Scene& scene, const std::vector<float>& scales, const MeshGroup& group) {
+  Source source{group, 0, &scene.primitives[static_cast<size_t>(group[0])].mesh};
+  for (const int primitive : group) source.scale = std::max(source.scale, scales[static_cast<size_t>(primitive)]);
+  if (group.size() > 1) source.regions = united(scene, group);
+  return source;
+}
+
 // What deforms is there once, whatever poses it is shown in, and stays whole where its arrays are not as they should
 // be.
-std::vector<Source> sources(const Scene& scene, const std::optional<MergedParts>& merged) {
+std::vector<Source> sources(const Scene& scene, std::span<const MeshGroup> groups) {
   const std::vector<float> scales = largest_scales(scene);
   std::set<std::pair<int, int>> seen;
   std::vector<Source> found;
+  for (const MeshGroup& group : groups) found.push_back(source_of(scene, scales, group));
   for (size_t i = 0; i < scene.primitives.size(); i++) {
     const Primitive& primitive = scene.primitives[i];
-    if (primitive.mesh.faces.empty()) continue;
-    Source source{static_cast<int>(i), scales[i], &primitive.mesh};
-    if (merged && i >= merged->first_primitive) source.merged = &merged->meshes[i - merged->first_primitive];
-    if (primitive.deforming) {
-      if (!seen.emplace(primitive.source_mesh, primitive.source_primitive).second) continue;
-      source.deforming = deforming_mesh(scene, primitive);
-      if (!source.deforming) continue;
-      const float rest = length(source.mesh().bounds().size()), posed = length(primitive.mesh.bounds().size());
-      if (rest > 0 && posed > 0) source.scale *= posed / rest;
-    }
+    if (primitive.mesh.faces.empty() || !primitive.deforming) continue;
+    if (!seen.emplace(primitive.source_mesh, primitive.source_primitive).second) continue;
+    Source source = source_of(scene, scales, {static_cast<int>(i)});
+    source.deforming = deforming_mesh(scene, primitive);
+    if (!source.deforming) continue;
+    const float rest = length(source.mesh().bounds().size()), posed = length(primitive.mesh.bounds().size());
+    if (rest > 0 && posed > 0) source.scale *= posed / rest;
     found.push_back(std::move(source));
   }
   return found;
@@ -107,53 +113,175 @@ class SharedCount {
   size_t done_ = 0;
 };
 
-SimplifyOptions simplify_options(const PackOptions& options, const Source& source) {
-  SimplifyOptions simplify;
-  simplify.base_vertices = fewest_vertices;
-  if (options.position_error > 0 && source.scale > 0)
-    simplify.quantize.position_error = options.position_error / source.scale;
-  if (source.deforming) simplify.quantize.rows = source.deforming->rows;
-  if (!source.merged) return simplify;
-  simplify.quantize.rows = source.merged->part_of_vertex;
-  if (options.position_error <= 0) simplify.quantize.position_error = usual_position_error(source.merged->part_size);
-  return simplify;
+const MergedMesh* merged_mesh(const std::optional<MergedParts>& merged, int primitive) {
+  const auto index = static_cast<size_t>(primitive);
+  return merged && index >= merged->first_primitive ? &merged->meshes[index - merged->first_primitive] : nullptr;
+}
+
+// How far the vertices of a primitive that is alone may be from their places: 0 is what is usual for its mesh.
+float position_error(const Source& source, int primitive, const std::optional<MergedParts>& merged,
+                     const PackOptions& options) {
+  if (options.position_error > 0) return source.scale > 0 ? options.position_error / source.scale : 0;
+  const MergedMesh* parts = merged_mesh(merged, primitive);
+  return parts ? usual_position_error(parts->part_size) : 0;
+}
+
+// What of a source the quantisation has to know beside its mesh.
+struct Quantities {
+  QuantizeOptions options;
+  std::vector<uint32_t> rows;
+  std::vector<float> errors;  // of each region
+};
+
+Quantities quantities(const Scene& scene, const Source& source, const std::optional<MergedParts>& merged,
+                      const PackOptions& options) {
+  Quantities out;
+  if (source.deforming) out.rows = source.deforming->rows;
+  for (const int primitive : source.primitives) {
+    const float error = position_error(source, primitive, merged, options);
+    const Box3f bounds = scene.primitives[static_cast<size_t>(primitive)].mesh.bounds();
+    out.errors.push_back(error > 0 ? error : usual_position_error(max_component(bounds.size())));
+    out.options.position_error = error;
+    if (const MergedMesh* parts = merged_mesh(merged, primitive))
+      out.rows.insert(out.rows.end(), parts->part_of_vertex.begin(), parts->part_of_vertex.end());
+  }
+  out.options.rows = out.rows;
+  if (!source.regions) return out;
+  out.options.regions = source.regions->region_of_vertex;
+  out.options.region_errors = out.errors;
+  return out;
+}
+
+// Of each region whether the coarsest level has a face of it, which its array in the opening needs: not where all its
+// faces are those of another.
+std::vector<bool> shown_regions(const SimplifiedMesh& simplified) {
+  std::vector<bool> shown(simplified.mesh.region_shifts.size());
+  for (size_t f = 0; f < simplified.mesh.regions.size(); f++)
+    if (simplified.order.vanished[f] != CollapseOrder::loose) shown[simplified.mesh.regions[f]] = true;
+  return shown;
+}
+
+// The groups that a group falls apart into when each region that is not shown is alone.
+std::vector<MeshGroup> divided(const MeshGroup& group, const std::vector<bool>& shown) {
+  std::vector<MeshGroup> groups;
+  MeshGroup together;
+  for (size_t i = 0; i < group.size(); i++)
+    if (shown[i])
+      together.push_back(group[i]);
+    else
+      groups.push_back({group[i]});
+  if (!together.empty()) groups.push_back(std::move(together));
+  return groups;
+}
+
+// Sources with their orders of collapse.
+struct Simplified {
+  std::vector<Source> sources;
+  std::vector<std::optional<SimplifiedMesh>> meshes;
+  std::vector<std::vector<OpeningForm>> forms;
+};
+
+Result<Simplified> simplify_all(const Scene& scene, std::span<const MeshGroup> groups,
+                                const std::optional<MergedParts>& merged, const PackOptions& options,
+                                SharedCount& count, Progress& progress) {
+  Cancellation cancellation(progress);
+  Simplified out;
+  for (std::vector<Source> left = sources(scene, groups); !left.empty();) {
+    std::vector<std::optional<SimplifiedMesh>> meshes(left.size());
+    std::vector<Result<void>> outcomes(left.size());
+    parallel_for(left.size(), 1, options.threads, [&](size_t i, size_t, int) {
+      const Quantities wanted = quantities(scene, left[i], merged, options);
+      const auto regions = static_cast<uint32_t>(left[i].primitives.size());
+      auto mesh = simplify(left[i].mesh(), {wanted.options, fewest_vertices * regions}, cancellation);
+      if (mesh)
+        meshes[i] = std::move(*mesh);
+      else
+        outcomes[i] = fail(mesh.error());
+      count.add(left[i].mesh().positions.size());
+    });
+    for (Result<void>& outcome : outcomes) LW_CHECK(outcome);
+    std::vector<Source> again;
+    for (size_t i = 0; i < left.size(); i++) {
+      const std::vector<bool> shown = shown_regions(*meshes[i]);
+      if (!std::ranges::all_of(shown, std::identity())) {
+        for (const MeshGroup& group : divided(left[i].primitives, shown))
+          again.push_back(source_of(scene, largest_scales(scene), group));
+        continue;
+      }
+      out.forms.push_back(opening_forms(left[i].mesh(), *meshes[i], left[i].scale));
+      out.meshes.push_back(std::move(meshes[i]));
+      out.sources.push_back(std::move(left[i]));
+    }
+    left = std::move(again);
+  }
+  return out;
+}
+
+// The least box of few decimals around a box.
+Box3f rounded_outwards(Box3f box) {
+  const double digit = std::pow(10.0, std::floor(std::log10(std::max(1e-30f, max_component(box.size())))) - 3);
+  for (int i = 0; i < 3; i++) {
+    box.lo[i] = std::min(box.lo[i], static_cast<float>(std::floor(box.lo[i] / digit) * digit));
+    box.hi[i] = std::max(box.hi[i], static_cast<float>(std::ceil(box.hi[i] / digit) * digit));
+  }
+  return box;
+}
+
+// Of each region the bounds at all levels: at coarse ones its faces may have corners at the vertices of others.
+std::vector<Box3f> bounds_of_regions(const ProgressiveMesh& mesh) {
+  std::vector<Box3f> bounds(mesh.mesh.region_shifts.size());
+  const Mesh final_level = dequantize(mesh.mesh);
+  for (size_t f = 0; f < mesh.mesh.regions.size(); f++)
+    for (uint32_t v : mesh.mesh.faces[f]) {
+      Box3f& box = bounds[mesh.mesh.regions[f]];
+      box.extend(final_level.positions[v]);
+      if (f >= mesh.appears_with.size()) continue;  // loose
+      const uint32_t first = std::max(mesh.appears_with[f] + 1, mesh.base_vertices());
+      while (v >= first) box.extend(final_level.positions[v = mesh.parent[v]]);
+    }
+  for (Box3f& box : bounds) box = rounded_outwards(box);
+  return bounds;
+}
+
+// The table that tells of a merged primitive's faces to which part each belongs.
+std::vector<uint32_t> table_of(const ProgressiveMesh& mesh, size_t region) {
+  if (mesh.mesh.regions.empty()) return part_table(dequantize(mesh.mesh), mesh.mesh.rows);
+  std::vector<Face> faces;
+  std::vector<bool> used(mesh.mesh.positions.size());
+  for (size_t f = 0; f < mesh.mesh.faces.size(); f++) {
+    if (mesh.mesh.regions[f] != region) continue;
+    faces.push_back(mesh.mesh.faces[f]);
+    for (const uint32_t v : faces.back()) used[v] = true;
+  }
+  std::vector<uint32_t> rows;
+  for (size_t v = 0; v < used.size(); v++)
+    if (used[v]) rows.push_back(mesh.mesh.rows[v]);
+  return part_table(mesh_of_faces(dequantize(mesh.mesh), std::move(faces)), rows);
 }
 
 }  // namespace
 
-Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::optional<MergedParts>& merged,
-                                                const OpeningBudget& budget, const PackOptions& options,
-                                                Progress& progress) {
-  std::vector<Source> refined = sources(scene, merged);
+Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::span<const MeshGroup> groups,
+                                                std::optional<MergedParts>& merged, const OpeningBudget& budget,
+                                                const PackOptions& options, Progress& progress) {
   size_t total = 0;
-  for (const Source& source : refined) total += source.mesh().positions.size();
+  for (const Primitive& primitive : scene.primitives) total += primitive.mesh.positions.size();
   SharedCount count(progress, total);
-  Cancellation cancellation(progress);
-
-  std::vector<std::optional<SimplifiedMesh>> simplified(refined.size());
-  std::vector<Result<void>> outcomes(refined.size());
-  std::vector<std::vector<OpeningForm>> forms(refined.size());
-  parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
-    const Mesh& source = refined[i].mesh();
-    auto mesh = simplify(source, simplify_options(options, refined[i]), cancellation);
-    if (!mesh) {
-      outcomes[i] = fail(mesh.error());
-      return;
-    }
-    forms[i] = opening_forms(source, *mesh, refined[i].scale);
-    simplified[i] = std::move(*mesh);
-    count.add(source.positions.size());
-  });
-  for (Result<void>& outcome : outcomes) LW_CHECK(outcome);
+  LW_TRY(ordered, simplify_all(scene, groups, merged, options, count, progress));
+  auto& [refined, simplified, forms] = ordered;
 
   const std::vector<size_t> rounds = share_opening(forms, budget);
   std::vector<std::optional<EncodedMesh>> encoded(refined.size());
-  std::vector<std::vector<uint32_t>> tables(refined.size());  // of those that are merged and streamed
+  std::vector<std::vector<Box3f>> bounds(refined.size());
+  std::vector<std::vector<uint32_t>> tables(scene.primitives.size());  // of those that are merged
   parallel_for(refined.size(), 1, options.threads, [&](size_t i, size_t, int) {
     if (rounds[i] > 0 && !progress.cancelled()) {
       ProgressiveMesh mesh = refine_after(std::move(*simplified[i]), rounds[i]);
       encoded[i] = encode(mesh);
-      if (refined[i].merged) tables[i] = part_table(dequantize(mesh.mesh), mesh.mesh.rows);
+      if (refined[i].regions) bounds[i] = bounds_of_regions(mesh);
+      for (size_t region = 0; region < refined[i].primitives.size(); region++)
+        if (const int primitive = refined[i].primitives[region]; merged_mesh(merged, primitive))
+          tables[static_cast<size_t>(primitive)] = table_of(mesh, region);
       if (refined[i].deforming) refined[i].deforming->rows = std::move(mesh.mesh.rows);
     }
     simplified[i].reset();
@@ -165,15 +293,20 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::optiona
   // A mesh of degenerate faces only has no coarsest level and stays whole in the opening.
   for (size_t i = 0; i < encoded.size(); i++) {
     const bool is_streamed = encoded[i] && !encoded[i]->blocks.empty() && !encoded[i]->base.faces.empty();
-    if (const MergedMesh* parts = refined[i].merged) {
-      if (!is_streamed) tables[i] = part_table(refined[i].mesh(), parts->part_of_vertex);
-      merged->file.merged[static_cast<size_t>(parts - merged->meshes.data())].table = std::move(tables[i]);
+    for (const int primitive : refined[i].primitives) {
+      const auto index = static_cast<size_t>(primitive);
+      const Mesh& mesh = refined[i].deforming ? refined[i].mesh() : scene.primitives[index].mesh;
+      if (!refined[i].regions) bounds[i].push_back(mesh.bounds());
+      const MergedMesh* parts = merged_mesh(merged, primitive);
+      if (!parts) continue;
+      if (!is_streamed) tables[index] = part_table(mesh, parts->part_of_vertex);
+      merged->file.merged[static_cast<size_t>(parts - merged->meshes.data())].table = std::move(tables[index]);
     }
     if (!is_streamed) continue;
     const float error = encoded[i]->layout.base_error * refined[i].scale;
-    const Box3f bounds = refined[i].mesh().bounds();
-    streamed.push_back(
-        {error, {refined[i].primitive, std::move(*encoded[i]), bounds, std::move(refined[i].deforming)}});
+    streamed.push_back({error,
+                        {std::move(refined[i].primitives), std::move(*encoded[i]), std::move(bounds[i]),
+                         std::move(refined[i].deforming)}});
   }
   std::stable_sort(streamed.begin(), streamed.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<StreamedMesh> sorted;

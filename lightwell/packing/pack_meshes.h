@@ -5,6 +5,7 @@
 #include "lightwell/mesh/stream.h"
 #include "lightwell/packing/deformation.h"
 #include "lightwell/packing/merged_parts.h"
+#include "lightwell/packing/mesh_groups.h"
 #include "lightwell/packing/opening_budget.h"
 #include "lightwell/packing/pack_options.h"
 #include "lightwell/scene/scene.h"
@@ -18,20 +19,20 @@ struct DeformingMesh {
   std::vector<uint32_t> rows;  ///< of each vertex the row of the deformation; of vertices that bend alike the same one
 };
 
-/// A primitive whose finer levels are streamed.
+/// A primitive whose finer levels are streamed, or several, each a region.
 struct StreamedMesh {
-  int primitive = 0;  ///< index into Scene::primitives
+  MeshGroup primitives;  ///< indices into Scene::primitives
   EncodedMesh encoded;
-  Box3f bounds;                                        ///< of the input
+  std::vector<Box3f> bounds;                           ///< of each primitive, at all levels
   std::optional<DeformingMesh> deforming = {};         ///< with the rows of the final level's vertices
   std::optional<DeformationAccessors> accessors = {};  ///< of the deformation, once it is written
 };
 
 /// Simplifies and encodes the meshes that the opening does not hold whole, sorted by decreasing error of their coarsest
-/// level (metres, at the largest instance). What deforms is taken at rest. Fails when cancelled or when a position is
-/// not finite. Gives the file of merged parts their tables.
-Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::optional<MergedParts>& merged,
-                                                const OpeningBudget& budget, const PackOptions& options,
-                                                Progress& progress);
+/// level (metres, at the largest instance): each group one mesh, and what deforms. That is taken at rest. Fails when
+/// cancelled or when a position is not finite. Gives the file of merged parts their tables.
+Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::span<const MeshGroup> groups,
+                                                std::optional<MergedParts>& merged, const OpeningBudget& budget,
+                                                const PackOptions& options, Progress& progress);
 
 }  // namespace lightwell

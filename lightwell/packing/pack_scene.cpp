@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/packing/pack_scene.h"
 
+#include <algorithm>
 #include <set>
+#include <span>
 
 #include "lightwell/asset/parts_asset.h"
 #include "lightwell/mesh/base_places.h"
@@ -24,11 +26,27 @@ struct Shown {
   const Mesh* mesh = nullptr;
   StreamedMesh* streamed = nullptr;
 
+  bool is_region() const { return streamed && streamed->primitives.size() > 1; }
   bool has(const std::string& name) const {
     return has_attribute(*mesh, name) ||
            (streamed && streamed->deforming && streamed->deforming->deformation.has(name));
   }
 };
+
+// The arrays of a mesh whose primitives share all but their indices, which follow one another.
+void give_arrays_of_regions(Document& document, const Scene& scene, const StreamedMesh& mesh) {
+  const Mesh& base = mesh.encoded.base;
+  DocumentBuilder builder(document);
+  const Json attributes = builder.vertices(base);
+  auto first = base.faces.begin();
+  for (size_t i = 0; i < mesh.primitives.size(); i++) {
+    const auto end = first + static_cast<ptrdiff_t>(mesh.encoded.layout.regions[i].base_faces);
+    Json& json = primitive_json(document.json, scene.primitives[static_cast<size_t>(mesh.primitives[i])]);
+    json["attributes"] = attributes;
+    json["indices"] = builder.indices({first, end}, base.positions.size());
+    first = end;
+  }
+}
 
 Result<void> give_arrays(Document& document, const Primitive& primitive, const Shown& shown) {
   const Json arrays = DocumentBuilder(document).primitive(*shown.mesh);
@@ -47,7 +65,8 @@ Result<void> shrink_meshes(const Scene& scene, std::vector<StreamedMesh>& stream
                            std::set<std::string> lost, Report& report) {
   std::vector<Shown> shown(scene.primitives.size());
   for (size_t i = 0; i < shown.size(); i++) shown[i].mesh = &scene.primitives[i].mesh;
-  for (StreamedMesh& mesh : streamed) shown[static_cast<size_t>(mesh.primitive)] = {&mesh.encoded.base, &mesh};
+  for (StreamedMesh& mesh : streamed)
+    for (const int primitive : mesh.primitives) shown[static_cast<size_t>(primitive)] = {&mesh.encoded.base, &mesh};
   const auto replaced = [&](size_t i) {
     return (!scene.primitives[i].deforming || shown[i].streamed) && !shown[i].mesh->faces.empty();
   };
@@ -58,7 +77,9 @@ Result<void> shrink_meshes(const Scene& scene, std::vector<StreamedMesh>& stream
           [&](const std::string& name) { return shown[i].has(name); }, lost);
   drop_unused(document);
   for (size_t i = 0; i < shown.size(); i++)
-    if (replaced(i)) LW_CHECK(give_arrays(document, scene.primitives[i], shown[i]));
+    if (replaced(i) && !shown[i].is_region()) LW_CHECK(give_arrays(document, scene.primitives[i], shown[i]));
+  for (const StreamedMesh& mesh : streamed)
+    if (mesh.primitives.size() > 1) give_arrays_of_regions(document, scene, mesh);
   std::string names;
   for (const std::string& name : lost)
     if (names.size() < 400) names += (names.empty() ? "" : ", ") + name;
@@ -107,11 +128,12 @@ BasePlaces places_of(const Json& json, const Json& primitive) {
 PackStream mesh_stream(StreamedMesh& mesh, const Json& json, const Json& primitive) {
   PackStream stream;
   stream.kind = StreamKind::mesh;
-  stream.codec = mesh_codec_splits;
+  stream.codec = mesh.encoded.layout.regions.empty() ? mesh_codec_splits : mesh_codec_regions;
   stream.error = mesh.encoded.layout.base_error;
   ByteWriter parameters;
   mesh.encoded.layout.write(parameters);
   places_of(json, primitive).write(parameters);
+  mesh.encoded.layout.write_regions(parameters);
   stream.parameters = parameters.release();
   for (MeshBlock& block : mesh.encoded.blocks)
     stream.blocks.push_back({std::move(block.payload), block.vertices, block.error});
@@ -172,9 +194,13 @@ uint64_t rest_of_opening(const Document& document, const PackLight& light, const
   return bytes;
 }
 
-OpeningBudget opening_budget(const Scene& scene, const PackLight& light, const PackContent& content) {
+OpeningBudget opening_budget(const Scene& scene, std::span<const MeshGroup> groups, const PackLight& light,
+                             const PackContent& content) {
   if (content.parts) return OpeningBudget::beside(rest_of_opening(scene.document, light, content));
-  return OpeningBudget::of(scene.primitives.size(), length(scene.bounds().size()));
+  size_t regions = 0;
+  for (const MeshGroup& group : groups) regions += group.size();
+  return OpeningBudget::of(scene.primitives.size() - regions + groups.size(), regions - groups.size(),
+                           length(scene.bounds().size()));
 }
 
 void count(const Scene& scene, PackStatistics& statistics) {
@@ -210,7 +236,9 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   name_scene(scene.document.json, scene.name);
   content.environment = add_environment(scene, scene.document);
   content.images = shrink_images(scene, scene.document);
-  LW_TRY(meshes, encode_meshes(scene, content.parts, opening_budget(scene, stated, content), options, progress));
+  const std::vector<MeshGroup> groups = mesh_groups(scene);
+  const OpeningBudget budget = opening_budget(scene, groups, stated, content);
+  LW_TRY(meshes, encode_meshes(scene, groups, content.parts, budget, options, progress));
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
   Document document = std::move(scene.document);
@@ -223,7 +251,7 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
 
   std::vector<PackStream> streams = std::move(content.light.streams);
   for (StreamedMesh& mesh : content.meshes) {
-    const Primitive& source = scene.primitives[static_cast<size_t>(mesh.primitive)];
+    const Primitive& source = scene.primitives[static_cast<size_t>(mesh.primitives[0])];
     streams.push_back(mesh_stream(mesh, document.json, primitive_json(document.json, source)));
   }
   for (const StreamedImage& image : content.images) streams.push_back(image_stream(image));

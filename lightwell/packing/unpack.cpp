@@ -26,7 +26,9 @@ bool fine_enough(const MeshAsset& mesh, float error, const MeshLevel& level) {
   return mesh.complete() || (mesh.buffers().faces >= wanted && (level.error < 0 || error <= level.error));
 }
 
-Mesh mesh_of(const MeshBuffers& buffers) {
+// A mesh for each region.
+std::vector<Mesh> meshes_of(const MeshAsset& asset) {
+  const MeshBuffers buffers = asset.buffers();
   Mesh mesh;
   const size_t count = buffers.vertices;
   const auto positions = buffers.positions.first(count);
@@ -40,9 +42,15 @@ Mesh mesh_of(const MeshBuffers& buffers) {
   }
   for (const Color16& c : buffers.colors.first(std::min(count, buffers.colors.size())))
     mesh.colors.push_back(color_of(c));
-  const auto indices = buffers.indices.first(size_t(3) * buffers.faces);
-  for (size_t i = 0; i < indices.size(); i += 3) mesh.faces.push_back({indices[i], indices[i + 1], indices[i + 2]});
-  return mesh;
+  std::vector<Mesh> meshes;
+  for (size_t region = 0; region < asset.layout().region_count(); region++) {
+    const auto indices = asset.indices(region);
+    std::vector<Face> faces;
+    for (size_t i = 0; i < indices.size(); i += 3) faces.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    meshes.push_back(asset.layout().regions.empty() ? mesh : mesh_of_faces(mesh, faces));
+    if (asset.layout().regions.empty()) meshes.back().faces = std::move(faces);
+  }
+  return meshes;
 }
 
 // Appends a stream's blocks as long as wanted(block) returns true.
@@ -55,13 +63,13 @@ Result<void> append_blocks(const PackReader& pack, size_t stream, AssetDecoder& 
   return {};
 }
 
-Result<Mesh> unpack_mesh(const PackReader& pack, size_t stream, const MeshLevel& level) {
+Result<std::vector<Mesh>> unpack_meshes(const PackReader& pack, size_t stream, const MeshLevel& level) {
   LW_TRY(mesh, open_asset_as<MeshAsset>(pack, stream));
   LW_CHECK(append_blocks(pack, stream, *mesh, [&](uint32_t block) {
     const float error = block == 0 ? pack.directory().streams[stream].error : pack.rows(stream)[block - 1].error;
     return !fine_enough(*mesh, error, level);
   }));
-  return mesh_of(mesh->buffers());
+  return meshes_of(*mesh);
 }
 
 Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream) {
@@ -73,8 +81,18 @@ Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream)
 
 Result<void> refine_meshes(Document& document, const PackRefinement& refinement) {
   LW_TRY(primitives, read_refined_primitives(document.json));
+  std::map<uint32_t, std::vector<Mesh>> of_stream;
+  std::map<uint32_t, size_t> left;  // of its regions
+  for (const RefinedPrimitive& refined : primitives) left[refined.stream]++;
   for (const RefinedPrimitive& refined : primitives) {
-    LW_TRY(mesh, refinement.mesh(refined.stream));
+    if (!of_stream.contains(refined.stream)) {
+      LW_TRY(meshes, refinement.meshes(refined.stream));
+      of_stream[refined.stream] = std::move(meshes);
+    }
+    std::vector<Mesh>& meshes = of_stream[refined.stream];
+    if (refined.region >= meshes.size()) return fail(mesh_extension, "a region that its stream does not have");
+    const Mesh mesh = left[refined.stream] == 1 ? std::move(meshes[refined.region]) : meshes[refined.region];
+    if (--left[refined.stream] == 0) of_stream.erase(refined.stream);
     const Json arrays = DocumentBuilder(document).primitive(mesh);
     Json& target = document.json["meshes"][refined.mesh]["primitives"][refined.primitive];
     target["attributes"] = arrays["attributes"];
@@ -168,7 +186,7 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report) {
   auto document = read_document(pack.json(), pack.bin(), report);
   if (!document) return document;
-  const PackRefinement refinement{[&](size_t stream) { return unpack_mesh(pack.reader(), stream, level); },
+  const PackRefinement refinement{[&](size_t stream) { return unpack_meshes(pack.reader(), stream, level); },
                                   [&](size_t stream) { return unpack_image(pack.reader(), stream); }};
   LW_CHECK(refine_document(*document, refinement));
   return document;
@@ -180,9 +198,18 @@ Result<void> unpack_parts(const OpenedPack& pack, Document& document) {
   LW_CHECK(append_blocks(pack.reader(), pack.parts()->stream, *parts, [](uint32_t) { return true; }));
   LW_TRY(file, read_parts_file(parts->file(), parts->parameters().inflated));
   const size_t mesh = pack.parts()->meshes;
+  std::map<uint32_t, std::vector<Mesh>> of_stream;
   const auto final_level = [&](size_t primitive) -> Result<Mesh> {
-    for (const RefinedPrimitive& refined : pack.primitives())
-      if (refined.mesh == mesh && refined.primitive == primitive) return unpack_mesh(pack.reader(), refined.stream, {});
+    for (const RefinedPrimitive& refined : pack.primitives()) {
+      if (refined.mesh != mesh || refined.primitive != primitive) continue;
+      if (!of_stream.contains(refined.stream)) {
+        LW_TRY(meshes, unpack_meshes(pack.reader(), refined.stream, {}));
+        of_stream[refined.stream] = std::move(meshes);
+      }
+      if (refined.region >= of_stream[refined.stream].size())
+        return fail(mesh_extension, "a region that its stream does not have");
+      return of_stream[refined.stream][refined.region];
+    }
     Report known;
     return read_primitive(document, static_cast<int>(mesh), static_cast<int>(primitive), known);
   };

@@ -30,9 +30,9 @@ Result<std::unique_ptr<Kind>> open_asset_as(const PackReader& pack, size_t strea
   return open_asset_as<Kind>(pack.directory(), stream, context);
 }
 
-/// The sources of finer meshes and full images, by stream.
+/// The sources of finer meshes, one for each region, and full images, by stream.
 struct PackRefinement {
-  std::function<Result<Mesh>(size_t stream)> mesh;
+  std::function<Result<std::vector<Mesh>>(size_t stream)> meshes;
   std::function<Result<std::vector<uint8_t>>(size_t stream)> image;  ///< an image file; empty to keep the preview
 };
 

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "lightwell/asset/light_asset.h"
+#include "lightwell/asset/mesh_asset.h"
 #include "lightwell/pack/opening.h"
 #include "lightwell/packing/lamps_extension.h"
 #include "lightwell/packing/unpack.h"
@@ -86,21 +88,32 @@ Result<void> verify_grids(const OpenedPack& pack) {
   return {};
 }
 
-// Checks that exactly one element names each stream of light, bricks or a mesh. A program that follows the JSON would
-// not show an unnamed one; if two elements named one, programs that start from the stream would refine only one of
-// them. Images may belong to any number of textures.
+// Checks that exactly one element names each stream of light, bricks or parts, and each region of a mesh. A program
+// that follows the JSON would not show an unnamed one; if two elements named one, programs that start from the stream
+// would refine only one of them. Images may belong to any number of textures.
 Result<void> verify_named_once(const OpenedPack& pack) {
-  std::map<uint32_t, int> names;
+  std::map<uint32_t, size_t> names;
   for (const GridDescription& grid : pack.grids()) {
     names[grid.stream]++;
     for (const BricksDescription& bricks : grid.bricks) names[bricks.stream]++;
   }
-  for (const RefinedPrimitive& refined : pack.primitives()) names[refined.stream]++;
+  std::set<std::pair<uint32_t, uint32_t>> regions;
+  for (const RefinedPrimitive& refined : pack.primitives()) {
+    if (!regions.emplace(refined.stream, refined.region).second)
+      return fail("stream " + std::to_string(refined.stream), "two primitives name one region");
+    names[refined.stream]++;
+  }
   if (pack.parts()) names[pack.parts()->stream]++;
   const auto& streams = pack.reader().directory().streams;
-  for (uint32_t i = 0; i < streams.size(); i++)
-    if (streams[i].kind != StreamKind::texture && names[i] != 1)
+  for (uint32_t i = 0; i < streams.size(); i++) {
+    size_t wanted = 1;
+    if (streams[i].kind == StreamKind::mesh) {
+      LW_TRY(mesh, open_asset_as<MeshAsset>(pack.reader(), i));
+      wanted = mesh->layout().region_count();
+    }
+    if (streams[i].kind != StreamKind::texture && names[i] != wanted)
       return fail("stream " + std::to_string(i), "is named by " + std::to_string(names[i]) + " elements of the JSON");
+  }
   return {};
 }
 

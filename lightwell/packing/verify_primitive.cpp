@@ -50,16 +50,25 @@ std::vector<std::pair<std::string, BaseArray>> attributes_of(const MeshLayout& l
   return attributes;
 }
 
+// The indices of a region of the coarsest level, which stand behind those of the regions before it.
+BaseArray indices_of(const MeshLayout& layout, const BasePlaces& places, size_t region) {
+  BaseArray indices{places.short_indices ? Component::u16 : Component::u32, 1, false, 3 * layout.base_faces,
+                    places.indices};
+  if (layout.regions.empty()) return indices;
+  for (size_t i = 0; i < region; i++)
+    indices.place += 3 * layout.regions[i].base_faces * (places.short_indices ? 2u : 4u);
+  indices.count = 3 * layout.regions[region].base_faces;
+  return indices;
+}
+
 Result<void> verify_arrays(const Json& json, const Json& primitive, const std::string& name, const MeshLayout& layout,
-                           const BasePlaces& places, size_t bending) {
+                           const BasePlaces& places, const BaseArray& indices, size_t bending) {
   const auto attributes = attributes_of(layout, places);
   const Json& said = member(primitive, "attributes");
   if (said.size() != attributes.size() + bending) return fail(name, "has other attributes than its stream");
   for (const auto& [semantic, array] : attributes)
     if (!is_array(json, index_of(said, semantic.c_str()), array))
       return fail(name, semantic + " is not the array that its stream refines");
-  const BaseArray indices{places.short_indices ? Component::u16 : Component::u32, 1, false, 3 * layout.base_faces,
-                          places.indices};
   const Json& mode = member(primitive, "mode");
   const bool triangles = mode.is_null() || whole_number(mode) == static_cast<int>(PrimitiveMode::triangles);
   if (!triangles || !is_array(json, index_of(primitive, "indices"), indices))
@@ -98,18 +107,30 @@ Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& re
   LW_TRY(mesh, open_asset_as<MeshAsset>(pack.reader(), refined.stream));
   const MeshLayout& layout = mesh->layout();
   const BasePlaces& places = mesh->places();
-  if (refined.vertices != layout.vertices || refined.faces != layout.faces || refined.error != layout.base_error)
+  if (refined.region >= layout.region_count()) return fail(name, "a region that its stream does not have");
+  const uint32_t faces = layout.regions.empty() ? layout.faces : layout.regions[refined.region].faces;
+  const bool is_first = refined.region == 0;
+  if (refined.faces != faces ||
+      (is_first && (refined.vertices != layout.vertices || refined.error != layout.base_error)))
     return fail(name + "." + mesh_extension, "differs from what its stream says");
   if (!extension(primitive, "KHR_draco_mesh_compression").is_null()) return fail(name, "is compressed");
   const DeformationAccessors deformation = refined.deformation.value_or(DeformationAccessors());
-  LW_CHECK(verify_arrays(json, primitive, name, layout, places, deformation.attributes.size()));
+  if (refined.deformation && !layout.regions.empty()) return fail(name, "is a region and bends");
+  LW_CHECK(verify_arrays(json, primitive, name, layout, places, indices_of(layout, places, refined.region),
+                         deformation.attributes.size()));
   LW_CHECK(verify_deformation(json, primitive, deformation, layout.base_vertices, layout.vertices, name));
   Box3f positions;
   const MeshBuffers coarsest = mesh->buffers();
   for (const Vec3f& position : coarsest.positions.first(coarsest.vertices)) positions.extend(position);
+  Box3f shown = positions;
+  if (!layout.regions.empty()) {
+    shown = {};
+    for (const uint32_t corner : mesh->indices(refined.region)) shown.extend(coarsest.positions[corner]);
+  }
   if (!has_exact_bounds(json, primitive, positions)) return fail(name, "its bounds are not those of its positions");
   // Rounding to the lattice may move positions out of the bounds of the input by a step.
-  if (!bound(refined.bounds.lo, refined.bounds.hi, positions, layout.positions.step()))
+  const bool is_shown = layout.regions.empty() || !mesh->indices(refined.region).empty();
+  if (is_shown && !bound(refined.bounds.lo, refined.bounds.hi, shown, layout.step_of(refined.region)))
     return fail(name + "." + mesh_extension, "its bounds do not hold its coarsest level");
   return {};
 }

@@ -85,13 +85,14 @@ TEST_F(Assets, AMeshIsHandedOverInPiecesOfAnySize) {
           const auto& draw = std::get<DrawUpdate>(*update);
           drawn.vertices = draw.vertices;
           drawn.faces = draw.faces;
+          ASSERT_TRUE(std::ranges::equal(draw.regions, std::vector{draw.faces}));
         }
         for (const uint32_t corner : drawn.corners()) ASSERT_LT(corner, mesh.buffers().vertices);
       }
       EXPECT_TRUE(decoder->accepts());
       EXPECT_EQ(drawn.vertices, mesh.buffers().vertices);
       EXPECT_EQ(drawn.faces, mesh.buffers().faces);
-      const auto indices = mesh.buffers().indices.first(size_t(3) * drawn.faces);
+      const auto indices = mesh.indices(0);
       EXPECT_TRUE(std::ranges::equal(drawn.corners(), indices));
       const size_t length = size_t(12) * drawn.vertices;
       EXPECT_EQ(std::memcmp(drawn.buffers[0].data(), mesh.buffers().positions.data(), length), 0);

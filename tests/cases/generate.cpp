@@ -36,9 +36,17 @@ uint32_t place(ByteWriter& bin, const std::vector<T>& values) {
   return at;
 }
 
-Case mesh_case(const Mesh& mesh) {
+/// In so many regions, each with a run of its vertices.
+Case mesh_case(const Mesh& mesh, uint16_t regions = 1) {
   Progress silent;
-  const EncodedMesh encoded = encode(build_progressive(mesh, {{}, 40}, silent).value(), 128);
+  std::vector<uint16_t> of_vertex;
+  const std::vector<float> errors(regions, usual_position_error(max_component(mesh.bounds().size())));
+  QuantizeOptions quantize;
+  for (size_t v = 0; v < mesh.positions.size() && regions > 1; v++)
+    of_vertex.push_back(static_cast<uint16_t>(v * regions / mesh.positions.size()));
+  quantize.regions = of_vertex;
+  quantize.region_errors = errors;
+  const EncodedMesh encoded = encode(build_progressive(mesh, {quantize, 40}, silent).value(), 128);
   const OpenedBase base(encoded.base);
   ByteWriter bin;
   BasePlaces places;
@@ -51,6 +59,7 @@ Case mesh_case(const Mesh& mesh) {
   ByteWriter parameters;
   encoded.layout.write(parameters);
   places.write(parameters);
+  encoded.layout.write_regions(parameters);
   Case one{Room::mesh, {parameters.release(), bin.release()}};
   for (const MeshBlock& block : encoded.blocks) one.parts.push_back(block.payload);
   return one;
@@ -68,7 +77,10 @@ Case asset_case_of(const Case& one) {
   const bool mesh = one.room == Room::mesh;
   const StreamKind kind = mesh ? StreamKind::mesh : one.room == Room::light ? StreamKind::light : StreamKind::texture;
   const auto payloads = one.parts.begin() + (mesh ? 2 : 1);
-  return asset_case(kind, one.parts[0], mesh ? one.parts[1] : std::vector<uint8_t>(), {payloads, one.parts.end()});
+  constexpr size_t without_regions = 53;
+  const uint8_t codec = !mesh ? 0 : one.parts[0].size() > without_regions ? mesh_codec_regions : mesh_codec_splits;
+  return asset_case(kind, one.parts[0], mesh ? one.parts[1] : std::vector<uint8_t>(), {payloads, one.parts.end()},
+                    codec);
 }
 
 /// A grid of the lattice codec for the table of codecs.
@@ -92,7 +104,10 @@ std::vector<Case> generate_cases() {
   for (const size_t length : {0u, 1u, 100u, 20000u}) cases.push_back({Room::base, {random_bytes(random, length)}});
   for (uint32_t field = 0; field < 4; field++)
     cases.push_back(light_case(lamp_grid(random_shape(random, 3 + 4 * field), field, 0.2f, field % 2 == 1)));
-  for (const auto& [name, mesh] : nasty_meshes()) cases.push_back(mesh_case(mesh));
+  for (const auto& [name, mesh] : nasty_meshes()) {
+    cases.push_back(mesh_case(mesh));
+    if (!mesh.faces.empty()) cases.push_back(mesh_case(mesh, 3));
+  }
   for (const uint32_t length : {1u, 32768u, 100000u}) cases.push_back(texture_case(random, length));
   for (size_t i = 0, count = cases.size(); i < count; i++)
     if (cases[i].room != Room::base) cases.push_back(asset_case_of(cases[i]));

@@ -29,7 +29,7 @@ function weightsOf({ meshes = [], images = [], grids = [] }) {
   let stream = 0;
   const number = (items, make) => new Map(items.map((item) => [stream++, make(item)]));
   const opening = {
-    primitives: number(meshes, ({ mesh, error = 0.01 }) => ({ extension: { error }, meshes: [mesh].flat(), base: null })),
+    primitives: number(meshes, ({ mesh, error = 0.01 }) => [{ extension: { error }, meshes: [mesh].flat(), base: null }]),
     images: number(images, ({ mesh, previewSize = 16 }) => ({ meshes: [mesh].flat(), previewSize })),
   };
   const lights = grids.map(({ min, size, bricks = [] }) => ({

@@ -76,8 +76,8 @@ inline uint64_t stream_bytes(const EncodedMesh& encoded) {
   return sum;
 }
 
-/// What a decoder shows now. Normals are rounded to its 16 bits.
-inline Mesh shown(const MeshDecoder& decoder) {
+/// What a decoder shows now, of a region. Normals are rounded to its 16 bits.
+inline Mesh shown(const MeshDecoder& decoder, size_t region = 0) {
   Mesh mesh;
   const uint32_t count = decoder.vertices();
   mesh.positions.assign(decoder.positions().begin(), decoder.positions().begin() + count);
@@ -92,8 +92,8 @@ inline Mesh shown(const MeshDecoder& decoder) {
                                                       decoder.texcoords(set).begin() + count);
   if (!decoder.colors().empty())
     for (uint32_t v = 0; v < count; v++) mesh.colors.push_back(color_of(decoder.colors()[v]));
-  for (uint32_t f = 0; f < decoder.faces(); f++)
-    mesh.faces.push_back({decoder.indices()[3 * f], decoder.indices()[3 * f + 1], decoder.indices()[3 * f + 2]});
+  const auto indices = decoder.indices(region);
+  for (size_t i = 0; i < indices.size(); i += 3) mesh.faces.push_back({indices[i], indices[i + 1], indices[i + 2]});
   return mesh;
 }
 

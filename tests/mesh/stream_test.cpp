@@ -183,7 +183,7 @@ TEST(MeshStream, ChangesAreAllThatChanges) {
     std::vector<BufferRange> ranges = changes.rewired;
     for (size_t i = 1; i < ranges.size(); i++)
       EXPECT_GT(ranges[i].first, ranges[i - 1].first + ranges[i - 1].count + 256);
-    ranges.push_back(changes.indices);
+    ranges.push_back(changes.indices[0]);
     for (const BufferRange& range : ranges)
       for (uint32_t i = range.first; i < range.first + range.count; i++) copy[i] = decoder.indices()[i];
     EXPECT_TRUE(std::equal(copy.begin(), copy.begin() + 3 * decoder.faces(), decoder.indices().begin()));
@@ -289,13 +289,13 @@ TEST(MeshLayout, RoundTripsAndRefusesPrefixes) {
   layout.write(writer);
   for (size_t length = 0; length < writer.size(); length++) {
     ByteReader reader(Bytes(writer.bytes()).first(length));
-    EXPECT_FALSE(MeshLayout::read(reader));
+    EXPECT_FALSE(MeshLayout().read(reader));
   }
   ByteReader reader(writer.bytes());
-  const auto read = MeshLayout::read(reader);
-  ASSERT_TRUE(read);
+  MeshLayout read;
+  ASSERT_TRUE(read.read(reader));
   ByteWriter again;
-  read->write(again);
+  read.write(again);
   EXPECT_EQ(again.bytes(), writer.bytes());
   EXPECT_EQ(reader.remaining(), 0u);
 }

@@ -9,8 +9,16 @@ namespace lightwell {
 namespace {
 
 RefinedPrimitive any_refined(Random& random, size_t mesh, size_t primitive) {
-  RefinedPrimitive refined{
-      random.below(65536), random.below(1000000), random.below(1000000), {}, random.uniform(), mesh, primitive};
+  RefinedPrimitive refined;
+  refined.stream = random.below(65536);
+  refined.region = random.below(3);
+  refined.faces = random.below(1000000);
+  if (refined.region == 0) {
+    refined.vertices = random.below(1000000);
+    refined.error = random.uniform();
+  }
+  refined.mesh = mesh;
+  refined.primitive = primitive;
   for (int axis = 0; axis < 3; axis++) {
     refined.bounds.lo[axis] = -random.uniform();
     refined.bounds.hi[axis] = random.uniform();

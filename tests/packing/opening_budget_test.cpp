@@ -97,12 +97,13 @@ TEST(ShareOpening, SpendsMoreForALikenessAlone) {
 }
 
 TEST(OpeningBudget, GrowsWithThePartsWithinBounds) {
-  EXPECT_EQ(OpeningBudget::of(0, 10).bytes_for_likeness, 40960u);
-  EXPECT_EQ(OpeningBudget::of(1, 10).bytes, 40960u);
-  EXPECT_EQ(OpeningBudget::of(100, 10).bytes_for_likeness, 153600u);
-  EXPECT_EQ(OpeningBudget::of(100, 10).bytes, 40960u);
-  EXPECT_EQ(OpeningBudget::of(5000, 10).bytes_for_likeness, 262144u);
-  EXPECT_EQ(OpeningBudget::of(5000, 10).likeness, 0.2f);
+  EXPECT_EQ(OpeningBudget::of(0, 0, 10).bytes_for_likeness, 40960u);
+  EXPECT_EQ(OpeningBudget::of(1, 0, 10).bytes, 40960u);
+  EXPECT_EQ(OpeningBudget::of(100, 0, 10).bytes_for_likeness, 153600u);
+  EXPECT_EQ(OpeningBudget::of(100, 0, 10).bytes, 40960u);
+  EXPECT_EQ(OpeningBudget::of(5000, 0, 10).bytes_for_likeness, 262144u);
+  EXPECT_EQ(OpeningBudget::of(5000, 0, 10).likeness, 0.2f);
+  EXPECT_EQ(OpeningBudget::of(10, 50, 10).bytes_for_likeness, 15360u + 55000u);
 }
 
 TEST(OpeningForms, CountBytesAndScaleErrors) {

@@ -250,7 +250,7 @@ Document row_of_sheets(int sheets) {
 TEST(MakePack, KeepsOpeningsToTheirBudget) {
   for (const int sheets : {1, 20, 100}) {
     SCOPED_TRACE(sheets);
-    const OpeningBudget budget = OpeningBudget::of(static_cast<size_t>(sheets), 1);
+    const OpeningBudget budget = OpeningBudget::of(static_cast<size_t>(sheets), 0, 1);
     EXPECT_LT(pack(row_of_sheets(sheets)).statistics.opening_bytes, budget.bytes_for_likeness * 11 / 10 + 4096);
   }
 }

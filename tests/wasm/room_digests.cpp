@@ -151,7 +151,7 @@ void add_mesh(MeshDecoder& decoder, Digest& digest) {
   digest.add(decoder.normals());
   for (const int set : {0, 1}) digest.add(decoder.texcoords(set));
   digest.add(decoder.colors());
-  digest.add(decoder.indices());
+  digest.add(decoder.index_buffer());
   const MeshChanges changes = decoder.take_changes();
   digest.add(changes.vertices);
   digest.add(changes.indices);
@@ -168,7 +168,7 @@ void shade(const MeshDecoder& decoder, Digest& digest) {
 }
 
 void mesh(const Case& one, Digest& digest) {
-  const auto parameters = MeshParameters::read(one.parts[0]);
+  const auto parameters = MeshParameters::read(one.parts[0], one.parts[0].size() > 53);
   if (!parameters) return digest.add(parameters.error());
   const auto base = BaseArrays::read(parameters->layout, parameters->places, one.parts[1]);
   if (!base) return digest.add(base.error());

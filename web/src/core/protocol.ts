@@ -49,7 +49,7 @@ export interface MeshEvent {
   attributes: AttributeLayout[];
 }
 
-/** The `buffer` of a RangeEvent that means the indices. */
+/** The `buffer` of a RangeEvent that means the indices: of a region those of as many faces as it will have, then of the next. */
 export const INDICES = 255;
 
 /** New bytes of one of a mesh's buffers: an attribute's place in the layout, or INDICES. */
@@ -67,7 +67,8 @@ export interface DrawEvent {
   type: 'draw';
   asset: number;
   vertices: number;
-  faces: number;
+  /** Of each region. */
+  faces: number[];
 }
 
 /** A light grid as a whole: the half-float RGBA texels of a 3D texture. */

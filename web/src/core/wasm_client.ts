@@ -22,7 +22,7 @@ interface Exports {
   lw_progress(client: number): void;
 }
 
-const ABI_VERSION = 1;
+const ABI_VERSION = 2;
 /** How nodes of the light grid that have not come are filled: see lightwell/client/wasm.h. */
 const FILL_PUSH_PULL = 0;
 const STRATEGIES: Strategy[] = ['interleave', 'geometry', 'light'];
@@ -146,7 +146,7 @@ export class WasmClient {
       case 3:
         return { type: 'range', asset, buffer: r[1]!, offset: r[2]!, data: new Uint8Array(this.#copy(r[3]!, r[4]!)) };
       case 4:
-        return { type: 'draw', asset, vertices: r[1]!, faces: r[2]! };
+        return { type: 'draw', asset, vertices: r[1]!, faces: Array.from(new Uint32Array(this.#copy(r[3]!, 4 * r[4]!))) };
       case 5:
         return {
           type: 'light',

@@ -22,10 +22,12 @@ export const assetOf = (extension: { stream: number }): number => extension.stre
 /** On a primitive. */
 export interface ProgressiveMeshExtension {
   stream: number;
+  /** Which of the primitives that the stream refines together; 0 when left out. */
+  region?: number;
   /** Of the final level. */
   faces: number;
   bounds: { min: Triple; max: Triple };
-  /** Of the coarsest level: its distance from the final one, in metres of the mesh's space. */
+  /** Of the coarsest level of all regions: its distance from the final one, in metres of the mesh's space. Said of region 0 alone. */
   error: number;
   /** Accessors, by glTF's semantics, of what bends all vertices of the final level. */
   deformation?: { attributes: Record<string, number>; targets: Record<string, number>[] };

@@ -38,10 +38,10 @@ export class HalfBuffers {
     return this.#sweeping;
   }
 
-  /** Sets the first state, before anything is drawn. */
-  initialise(indices: ArrayLike<number>): void {
-    this.#indices.set(indices, 0);
-    this.#indices.set(indices, this.#half);
+  /** Sets the first state from a place on, before anything is drawn. */
+  initialise(indices: ArrayLike<number>, offset: number): void {
+    this.#indices.set(indices, offset);
+    this.#indices.set(indices, this.#half + offset);
   }
 
   /** Brings the hidden half up to the drawn one and begins to change it. */

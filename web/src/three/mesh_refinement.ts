@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, BufferAttribute, BufferGeometry, Sphere, type TypedArray } from 'three';
+import { Box3, BufferAttribute, BufferGeometry, Sphere, type TypedArray, Vector3 } from 'three';
 import { type AttributeLayout, type DrawEvent, INDICES, type MeshEvent, type RangeEvent } from '../core/protocol.js';
+import type { ProgressiveMeshExtension } from './extensions.js';
 import { HalfBuffers } from './half_buffers.js';
+import type { ProgressivePrimitive } from './opening.js';
 import type { Refinement } from './refinement.js';
 import type { UploadBudget } from './upload_budget.js';
 
@@ -31,48 +33,58 @@ interface Fresh {
 /** A step multiplies the number of faces by this at most. */
 const GROWTH = 2;
 
-/** What leads to the mesh's next state: vertices, ranges of indices and, once the batch is whole, the number of faces. */
+/** What leads to the mesh's next state: vertices, ranges of indices and, once the batch is whole, the faces of each region. */
 interface Batch {
   fresh: Fresh[];
   ranges: RangeEvent[];
-  faces: number | null;
+  faces: number[] | null;
 }
 
 /**
- * A mesh that grows in place, step by step. Its geometry has buffers of the final sizes; a step hands over new vertices, then
- * the faces that use them, and only then does the geometry draw these. A step at most doubles the faces, however much has come:
- * so the picture grows finer all the time.
+ * A mesh that grows in place, step by step. Its buffers have their final sizes, and each region has a geometry that draws its part of the
+ * indices; a step hands over new vertices, then the faces that use them, and only then do the geometries draw these. A step at most doubles
+ * the faces, however much has come: so the picture grows finer all the time.
  */
 export class MeshRefinement implements Refinement {
-  readonly geometry = new BufferGeometry();
+  readonly geometries: BufferGeometry[];
   readonly #attributes: BufferAttribute[];
   readonly #index: HalfBuffers;
   #batches: Batch[] = [];
   /** The batches of the present step. */
   #step: Batch[] = [];
-  #faces = 0;
+  /** Of each region: where its indices begin, and how many faces it draws. */
+  readonly #starts: number[] = [];
+  #faces: number[];
   #consumed = 0;
 
-  /** `base` is what is drawn until the stream says otherwise; its bounds are replaced by those of the final mesh. */
-  constructor(layout: MeshEvent, base: BufferGeometry, bounds: Box3) {
+  /** The regions' `base` is what is drawn until the stream says otherwise; its bounds are replaced by those of the final mesh. */
+  constructor(layout: MeshEvent, regions: ProgressivePrimitive[]) {
+    const { base } = regions[0]!;
     this.#attributes = layout.attributes.map((attribute) => allocate(attribute, layout.vertices));
-    layout.attributes.forEach(({ semantic }, i) => {
-      const name = ATTRIBUTE_NAMES[semantic];
-      this.geometry.setAttribute(name, this.#attributes[i]!);
+    const names = layout.attributes.map(({ semantic }) => ATTRIBUTE_NAMES[semantic]);
+    names.forEach((name, i) => {
       const source = base.getAttribute(name);
       if (source !== undefined) copyElements(source as BufferAttribute, this.#attributes[i]!);
     });
     this.#index = new HalfBuffers(3 * layout.faces);
-    const baseIndices = base.index?.array ?? Uint32Array.from({ length: base.getAttribute('position').count }, (_, i) => i);
-    this.#index.initialise(baseIndices);
-    this.geometry.setIndex(this.#index.attribute);
     // Creating a buffer hands over everything, but three.js leaves the ranges standing.
     for (const attribute of [...this.#attributes, this.#index.attribute])
       attribute.onUpload(() => attribute.clearUpdateRanges());
-    this.#faces = baseIndices.length / 3;
-    this.geometry.setDrawRange(0, baseIndices.length);
-    this.geometry.boundingBox = bounds.clone();
-    this.geometry.boundingSphere = bounds.getBoundingSphere(new Sphere());
+    let start = 0;
+    this.geometries = regions.map((region) => {
+      const geometry = new BufferGeometry().setIndex(this.#index.attribute);
+      names.forEach((name, i) => geometry.setAttribute(name, this.#attributes[i]!));
+      this.#index.initialise(region.base.index!.array, start);
+      this.#starts.push(start);
+      start += 3 * region.extension.faces;
+      const bounds = boundsOf(region.extension);
+      if (regions.length === 1 && base.boundingBox) bounds.union(base.boundingBox);
+      geometry.boundingBox = bounds;
+      geometry.boundingSphere = bounds.getBoundingSphere(new Sphere());
+      return geometry;
+    });
+    this.#faces = regions.map((region) => region.base.index!.count / 3);
+    this.#draw();
   }
 
   get pending(): boolean {
@@ -99,7 +111,7 @@ export class MeshRefinement implements Refinement {
       if (!this.#beginSweep()) return true;
     }
     if (!this.#index.advance(budget)) return false;
-    this.geometry.setDrawRange(this.#index.start, 3 * this.#faces);
+    this.#draw();
     return true;
   }
 
@@ -113,7 +125,11 @@ export class MeshRefinement implements Refinement {
   restart(): void {}
 
   dispose(): void {
-    this.geometry.dispose();
+    for (const geometry of this.geometries) geometry.dispose();
+  }
+
+  #draw(): void {
+    this.geometries.forEach((geometry, i) => geometry.setDrawRange(this.#index.start + this.#starts[i]!, 3 * this.#faces[i]!));
   }
 
   #receiveVertices(event: RangeEvent): void {
@@ -134,7 +150,7 @@ export class MeshRefinement implements Refinement {
   #wholeBatches(mostFaces: number): number {
     let count = 0;
     for (const { faces } of this.#batches) {
-      if (faces === null || (count > 0 && faces > mostFaces)) break;
+      if (faces === null || (count > 0 && sum(faces) > mostFaces)) break;
       count++;
     }
     return count;
@@ -149,7 +165,7 @@ export class MeshRefinement implements Refinement {
   }
 
   #beginStep(): void {
-    this.#step = this.#batches.splice(0, this.#wholeBatches(GROWTH * this.#faces));
+    this.#step = this.#batches.splice(0, this.#wholeBatches(GROWTH * sum(this.#faces)));
   }
 
   /** Hands vertices over; true when all have gone. */
@@ -172,7 +188,7 @@ export class MeshRefinement implements Refinement {
   /** Puts the step's faces into the hidden half of the indices; false when it brings nothing but normals. */
   #beginSweep(): boolean {
     const step = this.#step.splice(0);
-    if (step.every(({ ranges, faces }) => ranges.length === 0 && faces === this.#faces)) return false;
+    if (step.every(({ ranges, faces }) => ranges.length === 0 && sum(faces!) === sum(this.#faces))) return false;
     this.#index.begin();
     for (const { ranges, faces } of step) {
       this.#faces = faces!;
@@ -182,6 +198,13 @@ export class MeshRefinement implements Refinement {
     return true;
   }
 }
+
+/** The box of a primitive at its finest. */
+export function boundsOf({ bounds: { min, max } }: ProgressiveMeshExtension): Box3 {
+  return new Box3(new Vector3(...min), new Vector3(...max));
+}
+
+const sum = (numbers: number[]) => numbers.reduce((total, value) => total + value);
 
 function allocate(layout: AttributeLayout, vertices: number): BufferAttribute {
   const ArrayType = COMPONENT_ARRAYS[layout.component];

@@ -9,7 +9,7 @@ import {
 } from './extensions.js';
 import { mapsOf, materialsOf, meshesIn } from './meshes.js';
 
-/** A primitive that a stream refines: the meshes that show it, one for each node. */
+/** A primitive that a stream refines, or a region of it: the meshes that show it, one for each node. */
 export interface ProgressivePrimitive {
   extension: ProgressiveMeshExtension;
   meshes: Mesh[];
@@ -31,7 +31,8 @@ export interface ProgressiveImage {
 export interface Opening {
   gltf: GLTF;
   extensions: PackExtensions;
-  primitives: Map<number, ProgressivePrimitive>;
+  /** By stream, each with its regions in their order. */
+  primitives: Map<number, ProgressivePrimitive[]>;
   images: Map<number, ProgressiveImage>;
   /** The meshes that show a primitive of a glTF node's own mesh. */
   meshesOf(node: number, primitive: number): Mesh[];
@@ -50,7 +51,7 @@ export async function readOpening(glb: ArrayBuffer, manager: LoadingManager): Pr
     if (object.userData.gltfExtensions?.KHR_node_visibility?.visible === false) object.visible = false;
   });
   const primitives = progressivePrimitives(gltf);
-  const bending = [...primitives.values()].filter(({ extension }) => extension.deformation);
+  const bending = [...primitives.values()].flat().filter(({ extension }) => extension.deformation);
   if (bending.length > 0) await (await import('./deformation.js')).prepareDeformation(bending, gltf);
   return {
     gltf,
@@ -78,18 +79,22 @@ function meshesOf(gltf: GLTF, node: number, primitive: number): Mesh[] {
   return found;
 }
 
-function progressivePrimitives(gltf: GLTF): Map<number, ProgressivePrimitive> {
+function progressivePrimitives(gltf: GLTF): Opening['primitives'] {
   const definitions = gltf.parser.json as { meshes?: { primitives: { extensions?: Record<string, unknown> }[] }[] };
-  const primitives = new Map<number, ProgressivePrimitive>();
+  const primitives: Opening['primitives'] = new Map();
   for (const mesh of meshesIn(gltf.scene)) {
     const at = gltf.parser.associations.get(mesh) as { meshes?: number; primitives?: number } | undefined;
     const definition = definitions.meshes?.[at?.meshes ?? -1]?.primitives[at?.primitives ?? 0];
     const extension = definition?.extensions?.['LIGHTWELL_progressive_mesh'] as ProgressiveMeshExtension | undefined;
     if (extension === undefined) continue;
-    const known = primitives.get(assetOf(extension));
+    const regions = primitives.get(assetOf(extension)) ?? [];
+    primitives.set(assetOf(extension), regions);
+    const known = regions.find((primitive) => primitive.extension === extension);
     if (known !== undefined) known.meshes.push(mesh);
-    else primitives.set(assetOf(extension), { extension, meshes: [mesh], base: mesh.geometry });
+    else regions.push({ extension, meshes: [mesh], base: mesh.geometry });
   }
+  const place = ({ extension }: ProgressivePrimitive) => extension.region ?? 0;
+  for (const regions of primitives.values()) regions.sort((a, b) => place(a) - place(b));
   return primitives;
 }
 

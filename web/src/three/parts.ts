@@ -73,7 +73,7 @@ export class Parts {
     const said = this.#file?.merged[at?.primitives ?? 0];
     if (at?.meshes !== this.#description.meshes || said === undefined || faceIndex == null) return undefined;
     const merged = this.#mergedOf(at.primitives ?? 0, mesh.geometry, said.table);
-    const part = merged?.partOfFace[faceIndex];
+    const part = merged?.partOfFace[faceIndex - mesh.geometry.drawRange.start / 3];
     return part === undefined ? undefined : { ...this.#saidOf(said.nodes[part]!), bounds: this.#boundsOf(merged!, part) };
   }
 
@@ -91,7 +91,7 @@ export class Parts {
   #mergedOf(primitive: number, geometry: BufferGeometry, table: number[]): Merged | undefined {
     const known = this.#merged.get(primitive);
     if (known?.geometry === geometry) return known;
-    for (const { extension, meshes } of this.#opening.primitives.values())
+    for (const { extension, meshes } of [...this.#opening.primitives.values()].flat())
       if (meshes[0]!.geometry === geometry && geometry.drawRange.count < 3 * extension.faces) return undefined;
     const merged = { geometry, partOfFace: partsOfFaces(geometry, table) };
     this.#merged.set(primitive, merged);
@@ -101,18 +101,20 @@ export class Parts {
   #boundsOf({ geometry, partOfFace }: Merged, part: number): Box3 {
     const box = new this.#Box();
     const index = geometry.index!;
+    const { start } = geometry.drawRange;
     const point = box.min.clone();
     for (let face = 0; face < partOfFace.length; face++)
       if (partOfFace[face] === part)
         for (let corner = 0; corner < 3; corner++)
-          box.expandByPoint(point.fromBufferAttribute(geometry.getAttribute('position'), index.getX(3 * face + corner)));
+          box.expandByPoint(point.fromBufferAttribute(geometry.getAttribute('position'), index.getX(start + 3 * face + corner)));
     return box;
   }
 }
 
-/** The part of each face by the table of docs/format.md: a number for each piece of faces that vertices join. */
+/** The part of each face that is drawn by the table of docs/format.md: a number for each piece of faces that vertices join. */
 export function partsOfFaces(geometry: BufferGeometry, table: number[]): Uint32Array {
-  const corners = geometry.index!.array;
+  const { start, count } = geometry.drawRange;
+  const corners = geometry.index!.array.slice(start, start + count);
   const joined = joinedVertices(corners, geometry.getAttribute('position').count);
   const pieces = [...new Set(corners.map((vertex) => joined[vertex]!))].sort((a, b) => a - b);
   const number = new Map(pieces.map((vertex, piece) => [vertex, piece]));

@@ -34,7 +34,7 @@ import { HandOver } from './hand_over.js';
 import { LightwellLight, type LightLookup } from './light.js';
 import type { LightGroups } from './light_groups.js';
 import { checkSize, LightRefinement } from './light_refinement.js';
-import { MeshRefinement } from './mesh_refinement.js';
+import { boundsOf, MeshRefinement } from './mesh_refinement.js';
 import { materialsOf, meshesIn } from './meshes.js';
 import type { Opening } from './opening.js';
 import { messageOf } from './pack_error.js';
@@ -379,7 +379,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       changed ||= advanced;
       if (refinement instanceof MeshRefinement) {
         grown ||= advanced;
-        if (budget.left < left) touched.push(refinement.geometry);
+        if (budget.left < left) touched.push(refinement.geometries[0]!);
       }
       consumed += refinement.takeConsumed();
       pending ||= refinement.pending;
@@ -419,16 +419,16 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   }
 
   #startMesh(layout: MeshEvent): void {
-    const primitive = this.opening.primitives.get(layout.asset);
-    if (primitive === undefined) return;
-    const { min, max } = primitive.extension.bounds;
-    const bounds = new Box3(new Vector3(...min), new Vector3(...max));
-    if (primitive.base.boundingBox) bounds.union(primitive.base.boundingBox);
-    const refinement = new MeshRefinement(layout, primitive.base, bounds);
-    primitive.bend?.(refinement.geometry);
-    for (const mesh of primitive.meshes) mesh.geometry = refinement.geometry;
-    this.#handOver.run([refinement.geometry]);
-    primitive.base.dispose();
+    const regions = this.opening.primitives.get(layout.asset);
+    if (regions === undefined) return;
+    const refinement = new MeshRefinement(layout, regions);
+    regions.forEach(({ bend, meshes, base }, region) => {
+      const geometry = refinement.geometries[region]!;
+      bend?.(geometry);
+      for (const mesh of meshes) mesh.geometry = geometry;
+      base.dispose();
+    });
+    this.#handOver.run(refinement.geometries);
     this.#meshes.set(layout.asset, refinement);
   }
 
@@ -464,10 +464,7 @@ function prepareMeshes(root: Group, ambientOcclusion: boolean): void {
 function finalBounds(opening: Opening): Box3 {
   opening.gltf.scene.updateMatrixWorld(true);
   const bounds = new Box3().setFromObject(opening.gltf.scene);
-  for (const { extension, meshes } of opening.primitives.values()) {
-    if (extension.deformation) continue;
-    const box = new Box3(new Vector3(...extension.bounds.min), new Vector3(...extension.bounds.max));
-    for (const mesh of meshes) bounds.union(box.clone().applyMatrix4(mesh.matrixWorld));
-  }
+  for (const { extension, meshes } of [...opening.primitives.values()].flat())
+    if (!extension.deformation) for (const mesh of meshes) bounds.union(boundsOf(extension).applyMatrix4(mesh.matrixWorld));
   return bounds;
 }

@@ -27,7 +27,7 @@ export function viewWeights(
   const view = new View(camera, heightInPixels);
   const geometry = [...opening.primitives, ...opening.images].map(([asset, shown]): AssetWeight => [
     asset,
-    Math.max(0, ...shown.meshes.map((mesh) => ('base' in shown ? view.ofMesh(mesh, shown) : view.ofImage(mesh, shown)))),
+    Math.max(0, ...[shown].flat().flatMap(({ meshes }) => meshes).map((mesh) => view.of(mesh, [shown].flat()[0]!))),
   ]);
   const largest = Math.max(Number.MIN_VALUE, ...geometry.map(([, weight]) => weight));
   return [
@@ -56,13 +56,10 @@ class View {
     this.#focal = camera.projectionMatrix.elements[5]!;
   }
 
-  ofMesh(mesh: Mesh, { extension }: ProgressivePrimitive): number {
-    return this.#errorOf(mesh, extension.error * mesh.matrixWorld.getMaxScaleOnAxis());
-  }
-
-  /** As if the image went once over its mesh. */
-  ofImage(mesh: Mesh, { previewSize }: ProgressiveImage): number {
-    return this.#errorOf(mesh, boxOf(mesh).getSize(new Vector3()).length() / previewSize);
+  /** Of an image as if it went once over its mesh. */
+  of(mesh: Mesh, shown: ProgressivePrimitive | ProgressiveImage): number {
+    if ('base' in shown) return this.#errorOf(mesh, shown.extension.error * mesh.matrixWorld.getMaxScaleOnAxis());
+    return this.#errorOf(mesh, boxOf(mesh).getSize(new Vector3()).length() / shown.previewSize);
   }
 
   ofBox({ min, max }: Bounds, toWorld: Matrix4): number {

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/packing/mesh_groups.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "lightwell/mesh/stream.h"
+#include "lightwell/packing/mergeable_parts.h"
+
+namespace lightwell {
+namespace {
+
+/// What touches and has more vertices is refined by itself: its stream costs little beside them.
+constexpr size_t many_vertices = size_t(1) << 16;
+/// Of what does not touch; a viewer refines streams in the order in which they matter to its picture.
+constexpr size_t most_vertices_of_a_group = size_t(1) << 20;
+/// Of the lattice that a group shares: what it can have over all of it, and what the least primitive needs.
+constexpr float steps_of_all = 1 << 20, steps_of_a_primitive = 1 << 10;
+
+/// Sets that grow together.
+class DisjointSets {
+ public:
+  explicit DisjointSets(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), size_t(0)); }
+  size_t of(size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(size_t a, size_t b) { parent_[std::max(of(a), of(b))] = std::min(of(a), of(b)); }
+
+ private:
+  std::vector<size_t> parent_;
+};
+
+/// Joins the primitives that have a vertex at one place.
+DisjointSets touching(const Scene& scene, const MeshGroup& primitives) {
+  std::vector<std::pair<Vec3f, uint32_t>> places;
+  for (uint32_t i = 0; i < primitives.size(); i++)
+    for (const Vec3f& p : scene.primitives[static_cast<size_t>(primitives[i])].mesh.positions)
+      if (is_finite(p)) places.emplace_back(p, i);
+  std::ranges::sort(places);
+  DisjointSets sets(primitives.size());
+  for (size_t i = 1; i < places.size(); i++)
+    if (places[i].first == places[i - 1].first) sets.join(places[i].second, places[i - 1].second);
+  return sets;
+}
+
+class Grouping {
+ public:
+  explicit Grouping(const Scene& scene) : scene_(scene) {}
+
+  void add(const MeshGroup& alike) {
+    if (alike.size() == 1) {
+      groups_.push_back(alike);
+      return;
+    }
+    DisjointSets sets = touching(scene_, alike);
+    std::map<size_t, MeshGroup> pieces;
+    for (size_t i = 0; i < alike.size(); i++) pieces[sets.of(i)].push_back(alike[i]);
+    MeshGroup small;
+    size_t vertices_of_small = 0;
+    const auto close = [&] {
+      add_fitting(std::exchange(small, {}));
+      vertices_of_small = 0;
+    };
+    for (const auto& [first, piece] : pieces) {
+      const size_t vertices = vertices_of(piece);
+      if (vertices > many_vertices || piece.size() > MeshLayout::most_regions) {
+        add_fitting(piece);
+        continue;
+      }
+      if (vertices_of_small + vertices > most_vertices_of_a_group ||
+          small.size() + piece.size() > MeshLayout::most_regions)
+        close();
+      small.insert(small.end(), piece.begin(), piece.end());
+      vertices_of_small += vertices;
+    }
+    close();
+  }
+
+  std::vector<MeshGroup> release() {
+    std::ranges::sort(groups_);
+    return std::move(groups_);
+  }
+
+ private:
+  size_t vertices_of(const MeshGroup& group) const {
+    size_t vertices = 0;
+    for (const int i : group) vertices += scene_.primitives[static_cast<size_t>(i)].mesh.positions.size();
+    return vertices;
+  }
+
+  /// Adds a group, and what is too small for it by itself.
+  void add_fitting(MeshGroup group) {
+    std::ranges::sort(group);
+    Box3f all;
+    std::vector<float> sides;
+    for (const int i : group) {
+      const Box3f bounds = scene_.primitives[static_cast<size_t>(i)].mesh.bounds();
+      all.extend(bounds);
+      sides.push_back(max_component(bounds.size()));
+    }
+    MeshGroup fitting;
+    for (size_t i = 0; i < group.size(); i++) {
+      const bool fits = sides[i] * steps_of_all >= max_component(all.size()) * steps_of_a_primitive;
+      if (fits && fitting.size() < MeshLayout::most_regions)
+        fitting.push_back(group[i]);
+      else
+        groups_.push_back({group[i]});
+    }
+    if (!fitting.empty()) groups_.push_back(std::move(fitting));
+  }
+
+  const Scene& scene_;
+  std::vector<MeshGroup> groups_;
+};
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+std::vector<MeshGroup> mesh_groups(const Scene& scene) {
+  std::map<std::pair<int, unsigned>, MeshGroup> kinds;
+  for (size_t i = 0; i < scene.primitives.size(); i++) {
+    const Primitive& primitive = scene.primitives[i];
+    if (!primitive.mesh.faces.empty() && !primitive.deforming)
+      kinds[{primitive.source_mesh, attributes_of(primitive.mesh)}].push_back(static_cast<int>(i));
+  }
+  Grouping grouping(scene);
+  for (const auto& [kind, alike] : kinds) grouping.add(alike);
+  return grouping.release();
+}
+
+UnitedMesh united(const Scene& scene, const MeshGroup& group) {
+  UnitedMesh out;
+  for (size_t region = 0; region < group.size(); region++) {
+    const Mesh& mesh = scene.primitives[static_cast<size_t>(group[region])].mesh;
+    const auto first = static_cast<uint32_t>(out.mesh.positions.size());
+    append(out.mesh.positions, mesh.positions);
+    append(out.mesh.normals, mesh.normals);
+    for (size_t set = 0; set < 2; set++) append(out.mesh.texcoords[set], mesh.texcoords[set]);
+    append(out.mesh.colors, mesh.colors);
+    out.region_of_vertex.resize(out.mesh.positions.size(), static_cast<uint16_t>(region));
+    for (Face face : mesh.faces) {
+      for (uint32_t& v : face) v += first;
+      out.mesh.faces.push_back(face);
+    }
+  }
+  return out;
+}
+
+}  // namespace lightwell

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/packing/mesh_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "lightwell/packing/unpack.h"
+#include "lightwell/packing/verify.h"
+#include "tests/mesh/knot.h"
+#include "tests/mesh/level.h"
+#include "tests/packing/sample_scenes.h"
+
+namespace lightwell {
+namespace {
+
+/// Parts of a mesh, by face.
+template <typename PartOf>
+std::vector<Mesh> parts_of(const Mesh& whole, size_t count, const PartOf& part_of) {
+  std::vector<std::vector<Face>> faces(count);
+  for (size_t f = 0; f < whole.faces.size(); f++) faces[part_of(f)].push_back(whole.faces[f]);
+  std::vector<Mesh> parts;
+  for (std::vector<Face>& of_part : faces) parts.push_back(mesh_of_faces(whole, std::move(of_part)));
+  return parts;
+}
+
+/// One glTF mesh with a primitive, of a material of its own, for each.
+Document document_of(const std::vector<Mesh>& primitives) {
+  Document document;
+  DocumentBuilder builder(document);
+  Json mesh;
+  for (const Mesh& of_primitive : primitives) {
+    Json primitive = builder.primitive(of_primitive);
+    primitive["material"] = builder.add("materials", Json::object());
+    mesh["primitives"].push_back(std::move(primitive));
+  }
+  builder.add("nodes", {{"mesh", builder.add("meshes", std::move(mesh))}});
+  document.json["scenes"] = Json::array({{{"nodes", {0}}}});
+  document.json["scene"] = 0;
+  return document;
+}
+
+Mesh smooth_knot(int along, int round) {
+  Mesh mesh = knot(along, round);
+  mesh.normals = smooth_normals(mesh);
+  return mesh;
+}
+
+/// A knot in sixteen bands of four materials.
+std::vector<Mesh> banded_knot() {
+  const Mesh whole = smooth_knot(160, 60);
+  return parts_of(whole, 4, [&](size_t f) { return 16 * f / whole.faces.size() % 4; });
+}
+
+Mesh moved(Mesh mesh, const Vec3f& by, float scale = 1) {
+  for (Vec3f& p : mesh.positions) p = p * scale + by;
+  return mesh;
+}
+
+std::vector<MeshGroup> groups_of(const std::vector<Mesh>& primitives) {
+  Report report;
+  return mesh_groups(scene_from_document(document_of(primitives), "test", report).value());
+}
+
+TEST(MeshGroups, WhatTouchesIsTogetherAndWhatIsSmall) {
+  EXPECT_EQ(groups_of(banded_knot()), (std::vector<MeshGroup>{{0, 1, 2, 3}}));
+  const Mesh small = smooth_knot(40, 20), large = smooth_knot(600, 120);
+  ASSERT_GT(large.positions.size(), 65536u);
+  const Vec3f away = Vec3f::filled(20);
+  EXPECT_EQ(groups_of({small, moved(small, away), large, moved(large, away * 3.0f)}),
+            (std::vector<MeshGroup>{{0, 1}, {2}, {3}}));
+  // The same surface twice touches everywhere.
+  EXPECT_EQ(groups_of({small, large, large}), (std::vector<MeshGroup>{{0}, {1, 2}}));
+}
+
+TEST(MeshGroups, OtherAttributesAndWhatIsTiny) {
+  const Mesh plain = smooth_knot(40, 20);
+  Mesh textured = plain;
+  textured.texcoords[0].resize(plain.positions.size());
+  EXPECT_EQ(groups_of({plain, textured, plain, textured}), (std::vector<MeshGroup>{{0, 2}, {1, 3}}));
+  EXPECT_EQ(groups_of({plain, moved(plain, {}, 1e-5f), plain}), (std::vector<MeshGroup>{{0, 2}, {1}}));
+}
+
+TEST(MeshGroups, AreOneStreamThatEndsInEachPrimitive) {
+  const std::vector<Mesh> primitives = banded_knot();
+  const Packed packed = pack(document_of(primitives));
+  const OpenedPack opened = open(packed.file);
+  const Verification verification = verify_pack(opened);
+  ASSERT_TRUE(verification.errors.empty()) << testing::PrintToString(verification.errors);
+  ASSERT_EQ(opened.primitives().size(), 4u);
+  for (size_t region = 0; region < 4; region++) {
+    EXPECT_EQ(opened.primitives()[region].stream, opened.primitives()[0].stream);
+    EXPECT_EQ(opened.primitives()[region].region, region);
+    EXPECT_EQ(opened.primitives()[region].faces, primitives[region].faces.size());
+  }
+  Report report;
+  const Scene scene = scene_from_document(unpack_document(opened, {}, report).value(), "again", report).value();
+  ASSERT_EQ(scene.primitives.size(), 4u);
+  for (size_t i = 0; i < 4; i++) {
+    EXPECT_EQ(scene.primitives[i].material, static_cast<int>(i));
+    EXPECT_EQ(scene.primitives[i].mesh.faces.size(), primitives[i].faces.size());
+    EXPECT_EQ(scene.primitives[i].mesh.positions.size(), primitives[i].positions.size());
+  }
+}
+
+// What a viewer shows: the knot is closed at the coarsest level, at the finest and between.
+TEST(MeshGroups, NoCrackOpensBetweenPrimitives) {
+  const Packed packed = pack(document_of(banded_knot()));
+  const OpenedPack opened = open(packed.file);
+  for (const float share : {0.0f, 0.1f, 0.3f, 0.7f, 1.0f}) {
+    Report report;
+    const Scene scene =
+        scene_from_document(unpack_document(opened, {.share = share}, report).value(), "again", report).value();
+    std::map<std::pair<Vec3f, Vec3f>, int> sides;
+    size_t faces = 0;
+    for (const Primitive& primitive : scene.primitives)
+      for (const Face& face : primitive.mesh.faces) {
+        faces++;
+        for (size_t k = 0; k < 3; k++) {
+          const Vec3f a = primitive.mesh.positions[face[k]], b = primitive.mesh.positions[face[(k + 1) % 3]];
+          sides[a < b ? std::pair(a, b) : std::pair(b, a)] += a < b ? 1 : -1;
+        }
+      }
+    for (const auto& [edge, open] : sides) EXPECT_EQ(open, 0);
+    EXPECT_GT(faces, 10u);
+  }
+}
+
+// The outlines of a region, at all levels, lie in the bounds by which a viewer leaves it out.
+TEST(MeshGroups, BoundsHoldEveryLevel) {
+  const Packed packed = pack(document_of(banded_knot()));
+  const OpenedPack opened = open(packed.file);
+  for (const float share : {0.0f, 0.05f, 0.1f, 0.2f, 0.5f, 1.0f}) {
+    Report report;
+    const Scene scene =
+        scene_from_document(unpack_document(opened, {.share = share}, report).value(), "again", report).value();
+    for (size_t i = 0; i < 4; i++)
+      for (const Vec3f& p : scene.primitives[i].mesh.positions)
+        for (int axis = 0; axis < 3; axis++) {
+          EXPECT_GE(p[axis], opened.primitives()[i].bounds.lo[axis]);
+          EXPECT_LE(p[axis], opened.primitives()[i].bounds.hi[axis]);
+        }
+  }
+}
+
+// Faces that are those of another primitive take no part in a refinement: a region of such alone would have no coarsest
+// level. It has a stream, or a place in the opening, of its own.
+TEST(MeshGroups, ASurfaceThatIsThereTwiceFallsApart) {
+  std::vector<Mesh> primitives = banded_knot();
+  primitives.push_back(primitives[1]);
+  const Packed packed = pack(document_of(primitives));
+  const OpenedPack opened = open(packed.file);
+  const Verification verification = verify_pack(opened);
+  ASSERT_TRUE(verification.errors.empty()) << testing::PrintToString(verification.errors);
+  Report report;
+  const Scene scene = scene_from_document(unpack_document(opened, {}, report).value(), "again", report).value();
+  ASSERT_EQ(scene.primitives.size(), 5u);
+  for (size_t i = 0; i < 5; i++) EXPECT_EQ(scene.primitives[i].mesh.faces.size(), primitives[i].faces.size());
+}
+
+TEST(MeshGroups, VerifyFindsRegionsThatAreNamedWrongly) {
+  const Packed packed = pack(document_of(banded_knot()));
+  const OpenedPack opened = open(packed.file);
+  const auto errors = [&](const auto& edit) {
+    Json json = opened.json();
+    std::vector<Json*> said;
+    for (Json& primitive : json["meshes"][0]["primitives"]) said.push_back(&primitive["extensions"][mesh_extension]);
+    edit(said);
+    std::vector<PackStream> streams = streams_of(opened.reader());
+    const std::vector<uint8_t> file = rewrite(opened, json, std::move(streams));
+    const auto again = try_open(file);
+    return !again || !verify_pack(*again).errors.empty();
+  };
+  using Said = std::vector<Json*>;
+  EXPECT_FALSE(errors([](const Said&) {}));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[1])["region"] = 2; }));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[3])["region"] = 4; }));
+  EXPECT_TRUE(errors([](const Said& said) { std::swap(*said[1], *said[2]); }));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[2])["faces"] = 7; }));
+  EXPECT_TRUE(errors([](const Said& said) { said[3]->clear(); }));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[1])["bounds"]["max"][0] = -1000; }));
+}
+
+}  // namespace
+}  // namespace lightwell
