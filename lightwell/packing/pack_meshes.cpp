@@ -268,9 +268,10 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::span<co
   for (const Primitive& primitive : scene.primitives) total += primitive.mesh.positions.size();
   SharedCount count(progress, total);
   LW_TRY(ordered, simplify_all(scene, groups, merged, options, count, progress));
-  auto& [refined, simplified, forms] = ordered;
+  std::vector<Source>& refined = ordered.sources;
+  std::vector<std::optional<SimplifiedMesh>>& simplified = ordered.meshes;
 
-  const std::vector<size_t> rounds = share_opening(forms, budget);
+  const std::vector<size_t> rounds = share_opening(ordered.forms, budget);
   std::vector<std::optional<EncodedMesh>> encoded(refined.size());
   std::vector<std::vector<Box3f>> bounds(refined.size());
   std::vector<std::vector<uint32_t>> tables(scene.primitives.size());  // of those that are merged

@@ -106,6 +106,39 @@ test('of a surface with seams', () => {
   assertReads(bake(scene, `${folder}/sphere.lw.glb`, BAKING), 1);
 });
 
+/** Cuts a shape's faces into pieces by turns of some of them, each a primitive of one mesh. */
+function writePieces(file, shape, count) {
+  const faces = Array.from({ length: shape.indices.length / 3 }, (_, i) => shape.indices.slice(3 * i, 3 * i + 3));
+  const pieces = Array.from({ length: count }, (_, piece) => ({
+    mesh: { ...shape, indices: faces.filter((_, i) => Math.floor(i / 17) % count === piece).flat() },
+    material: WHITE,
+  }));
+  writeScene(file, pieces, []);
+  const gltf = JSON.parse(readFileSync(file, 'utf8'));
+  gltf.meshes = [{ primitives: gltf.meshes.flatMap(({ primitives }) => primitives) }];
+  gltf.nodes = [{ mesh: 0 }];
+  gltf.scenes[0].nodes = [0];
+  writeFileSync(file, JSON.stringify(gltf));
+  return file;
+}
+
+test('of primitives that share a stream', () => {
+  const pack = bake(writePieces(`${folder}/pieces.gltf`, sphere(0.5, 60), 3), `${folder}/pieces.lw.glb`, BAKING);
+  const [stream, ...others] = meshStreams(readFileSync(pack)).filter(({ payloads }) => payloads.length > 0);
+  assert.deepEqual([stream.codec, stream.layout.regions.length, others.length], [2, 3, 0]);
+  const mesh = new PlainMesh(stream);
+  for (const payload of stream.payloads) mesh.append(payload);
+  assert.equal(mesh.regions.length, mesh.faces.length);
+  exported(pack).forEach((own, region) => {
+    const found = mesh.faces.filter((_, face) => mesh.regions[face] === region);
+    const used = [...new Set(found.flat())].sort((a, b) => a - b);
+    const number = new Map(used.map((v, i) => [v, i]));
+    assert.deepEqual(found.flat().map((v) => number.get(v)), own.indices);
+    assert.deepEqual(used.map((v) => mesh.positions[v].map((x) => x * 2 ** stream.layout.exponents[0])), own.positions);
+    assert.deepEqual(used.map((v) => mesh.texcoords[0][v].map((x) => x * 2 ** stream.layout.exponents[1])), own.texcoords);
+  });
+});
+
 /** A hilly field with a colour at each vertex and a border; `spoilt` changes its faces, each a list of corners. */
 function writeField(file, side, spoilt = (faces) => faces) {
   const vertices = [];

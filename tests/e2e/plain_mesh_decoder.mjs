@@ -125,7 +125,7 @@ export function meshStreams(file) {
     const [kind, codec, blocks, length] = [view.getUint8(at), view.getUint8(at + 1), u32(at + 12), u32(at + 20)];
     const parameters = at + 24;
     const first = parameters + length;
-    if (kind === 1) found.push({ codec, ...readLayout(view, parameters, bin), payloads: readBlocks(view, streams + u32(at + 4), first, blocks) });
+    if (kind === 1) found.push({ codec, ...readLayout(view, parameters, length, bin), payloads: readBlocks(view, streams + u32(at + 4), first, blocks) });
     at = first + 12 * Math.min(blocks, 64);
   }
   return found;
@@ -146,7 +146,7 @@ function readBlocks(view, begin, page, count) {
   return payloads;
 }
 
-function readLayout(view, at, bin) {
+function readLayout(view, at, length, bin) {
   const u32 = (i) => view.getUint32(at + 4 * i, true);
   const [vertices, faces, baseVertices, baseFaces, loose] = [0, 1, 2, 3, 4].map(u32);
   const attributes = view.getUint8(at + 24);
@@ -158,8 +158,10 @@ function readLayout(view, at, bin) {
   const u16 = (i) => view.getUint16(i, true);
   const short = view.getUint8(at + 52) === 1;
   const index = (i) => (short ? u16(place(5) + 2 * i) : view.getUint32(place(5) + 4 * i, true));
+  const regions = [];
+  for (let row = at + 53; row < at + length; row += 9) regions.push({ baseFaces: view.getUint32(row + 4, true), shift: view.getUint8(row + 8) });
   return {
-    layout: { vertices, faces, loose, attributes, exponents },
+    layout: { vertices, faces, loose, attributes, exponents, regions },
     base: {
       positions: numbers(true, 0, 3, 4, f32),
       normals: numbers(attributes & 1, 1, 3, 4, f32),
@@ -184,6 +186,7 @@ export class PlainMesh {
   #areas = null;
   #recent = 16;
   #lastLoose = 0;
+  #lastRegion = 0;
 
   constructor({ layout, base }) {
     this.layout = layout;
@@ -194,6 +197,7 @@ export class PlainMesh {
     this.colors = base.colors?.map(colorCode) ?? null;
     this.normals = new Map();
     this.faces = [];
+    this.regions = (layout.regions ?? []).flatMap(({ baseFaces }, region) => Array(baseFaces).fill(region)); // of each face, where there are several
     this.positions.forEach((p, v) => {
       this.#lists.push([]);
       if (v > 0 && minus(p, this.positions[v - 1]).every((x) => x === 0)) this.#points.at(-1).push(v);
@@ -267,9 +271,10 @@ export class PlainMesh {
     const fan = this.#fan(parent);
     const moves = this.#moves(reader, parent, fan);
     const added = this.#newFaces(reader, parent, fan, moves);
+    const shift = this.layout.regions?.length > 0 ? this.#newRegions(reader, parent, fan, moves, added) : 0;
     const v = this.positions.length;
     const around = [...fan.filter((_, i) => moves[i]), ...added];
-    this.positions.push(point.length > 0 ? this.positions[point[0]] : this.#position(reader, parent, around));
+    this.positions.push(point.length > 0 ? this.positions[point[0]] : this.#position(reader, parent, around, shift));
     this.#texcoords(reader, parent, around);
     if (this.colors !== null) this.#color(reader, parent, around);
     point.push(v);
@@ -337,7 +342,23 @@ export class PlainMesh {
     return faces;
   }
 
-  #position(reader, parent, around) {
+  #region(reader, likely) {
+    const found = reader.bit(this.#models.of('likely region'), 0) ? likely : reader.natural(this.#models.of('region'));
+    this.regions.push(found);
+    return (this.#lastRegion = found);
+  }
+
+  /** The shift of the lattice on which the new vertex' faces lie. */
+  #newRegions(reader, parent, fan, moves, added) {
+    const regions = fan.filter((_, i) => moves[i]).map(({ face }) => this.regions[face]);
+    for (const { a, b } of added) {
+      const beside = fan.find((face) => [a, b].some((x) => x !== parent && (face.a === x || face.b === x)));
+      regions.push(this.#region(reader, beside === undefined ? this.#lastRegion : this.regions[beside.face]));
+    }
+    return regions.length > 0 ? Math.min(...regions.map((region) => this.layout.regions[region].shift)) : 0;
+  }
+
+  #position(reader, parent, around, regionShift) {
     const p = this.positions[parent];
     const from = (x) => minus(this.positions[x], p);
     const corners = around.flatMap(({ a, b }) => [from(a), from(b)]);
@@ -358,13 +379,14 @@ export class PlainMesh {
     for (const i of [1, 2]) if (abs(n[i]) > abs(n[up])) up = i;
     const found = [];
     let height = 0n;
+    const step = regionShift > 0 && reader.bit(this.#models.of('on lattice'), 0) ? 2 ** regionShift : 1;
     for (let i = 1; i <= 3; i++) {
       const axis = (up + i) % 3;
       let expected = m[axis] + Math.trunc((8 * (p[axis] - m[axis]) - 3 * (h[axis] - m[axis])) / 32);
       if (axis === up && n[up] !== 0n) expected -= Number(height / n[up]);
-      const residual = reader.integer(this.#models.of(axis === up ? 'height' : 'across', bits(s)));
-      found[axis] = expected + residual;
-      height += n[axis] * BigInt(residual);
+      const nearest = Math.floor((expected + Math.floor(step / 2)) / step);
+      found[axis] = step * (nearest + reader.integer(this.#models.of(axis === up ? 'height' : 'across', bits(s / BigInt(step * step)))));
+      height += n[axis] * BigInt(found[axis] - expected);
     }
     return found;
   }
@@ -400,6 +422,7 @@ export class PlainMesh {
     const second = this.#near(reader, 'loose corner', near);
     near[0] = second;
     this.faces.push([first, second, this.#near(reader, 'loose corner', near)]);
+    if (this.layout.regions?.length > 0) this.#region(reader, this.#lastRegion);
   }
 
   #normal(reader) {

@@ -428,7 +428,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
       for (const mesh of meshes) mesh.geometry = geometry;
       base.dispose();
     });
-    this.#handOver.run(refinement.geometries);
+    this.#handOver.run(refinement.geometries.slice(0, 1));
     this.#meshes.set(layout.asset, refinement);
   }
 
