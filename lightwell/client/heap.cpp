@@ -56,7 +56,7 @@ void Heap::put(Block* block) {
   for (; *link != nullptr && *link < block; link = &(*link)->next) before = *link;
   block->next = *link;
   *link = block;
-  if (end(block) == block->next) {
+  if (block->next != nullptr && end(block) == block->next) {
     block->size += block->next->size;
     block->next = block->next->next;
   }

@@ -43,7 +43,8 @@ struct CollapseOrder {
 /// Collapses the points of a mesh until at most `vertices` vertices are left or hardly anything can collapse any more.
 /// No kind of collapse is forbidden, so that any mesh becomes small: one that would change the topology, flip a face or
 /// tear attributes is charged an error of the size of what may vanish. Only the last face of a region is never removed.
-/// Faces that have two corners at one point or repeat another are loose: they take no part. Fails only when cancelled.
+/// Faces that have two corners at one point or repeat another of their region are loose: they take no part. Fails only
+/// when cancelled.
 ///
 /// The cost is the quadric error metric of M. Garland and P. Heckbert ("Surface Simplification Using Quadric Error
 /// Metrics", SIGGRAPH 1997). Unlike in the paper, a point collapses onto a neighbour and nothing moves (half-edge

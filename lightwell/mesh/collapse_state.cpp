@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace lightwell {
 namespace {
@@ -55,12 +56,12 @@ CollapseState::CollapseState(const QuantizedMesh& mesh, const Points& points)
 }
 
 void CollapseState::link_faces(const QuantizedMesh& mesh) {
-  std::vector<std::pair<Face, uint32_t>> sorted(mesh.faces.size());
+  std::vector<std::tuple<Face, uint16_t, uint32_t>> sorted(mesh.faces.size());
   faces_.resize(mesh.faces.size());
   for (uint32_t f = 0; f < faces_.size(); f++) {
     const Face& v = mesh.faces[f];
     faces_[f] = {{points_.of[v[0]], points_.of[v[1]], points_.of[v[2]]}, v, {none, none, none}};
-    sorted[f] = {canonical(faces_[f].points), f};
+    sorted[f] = {canonical(faces_[f].points), region_of(f), f};
   }
   if (mesh.has_regions_apart()) {
     vertex_region_.resize(mesh.positions.size());
@@ -70,9 +71,10 @@ void CollapseState::link_faces(const QuantizedMesh& mesh) {
   order_.vanished.assign(faces_.size(), CollapseOrder::never);
   std::sort(sorted.begin(), sorted.end());
   for (size_t i = 0; i < sorted.size(); i++) {
-    const auto& [p, f] = sorted[i];
+    const auto& [p, region, f] = sorted[i];
     const bool degenerate = p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
-    if (degenerate || (i > 0 && sorted[i - 1].first == p)) order_.vanished[f] = CollapseOrder::loose;
+    const bool repeated = i > 0 && std::get<0>(sorted[i - 1]) == p && std::get<1>(sorted[i - 1]) == region;
+    if (degenerate || repeated) order_.vanished[f] = CollapseOrder::loose;
   }
   live_faces_.resize(std::max<size_t>(1, mesh.region_shifts.size()));
   for (uint32_t f = 0; f < faces_.size(); f++) {

@@ -154,7 +154,9 @@ void append(QuantizedMesh& out, const Tuple& t, const Mesh& mesh, bool has_rows)
 
 }  // namespace
 
-float usual_position_error(float side) { return side > 0 ? std::ldexp(0.5f, default_exponent(side)) : 0; }
+float usual_position_error(float side) {
+  return side > 0 && std::isfinite(side) ? std::ldexp(0.5f, default_exponent(side)) : 0;
+}
 
 Result<QuantizedMesh> quantize(const Mesh& mesh, const QuantizeOptions& options) {
   std::vector<bool> used(mesh.positions.size());

@@ -44,9 +44,12 @@ Refinement::Refinement(MeshLayout&& layout)
 }
 
 uint16_t Refinement::region_of(uint32_t corner) const {
-  uint16_t region = 0;
-  while (region + 1u < regions_.size() && regions_[region + 1u].first <= corner) region++;
-  return region;
+  size_t region = 0;
+  for (size_t end = regions_.size(); end - region > 1;) {
+    const size_t middle = (region + end) / 2;
+    (regions_[middle].first <= corner ? region : end) = middle;
+  }
+  return static_cast<uint16_t>(region);
 }
 
 Result<Refinement> Refinement::open(MeshLayout layout, const MeshArrays& base) {

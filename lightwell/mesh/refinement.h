@@ -57,8 +57,10 @@ class Refinement {
   uint16_t region_of(uint32_t corner) const;
   /// The indices of the faces of a region, in the order in which they came.
   std::span<const uint32_t> indices(size_t region) const {
-    return std::span(index_buffer).subspan(regions_[region].first, 3 * size_t(regions_[region].faces));
+    if (faces(region) == 0) return {};
+    return std::span(index_buffer).subspan(regions_[region].first, 3 * size_t(faces(region)));
   }
+  uint32_t faces(size_t region) const { return regions_[region].faces; }
 
   Vec3i position(uint32_t vertex) const {
     const Vec3f& p = position_buffer[vertex];

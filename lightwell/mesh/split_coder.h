@@ -193,12 +193,9 @@ bool SplitCoder::explicit_faces(Coder& coder, const Refinement& mesh, NewVertex&
 // The region of a face is mostly that of one beside.
 template <typename Coder>
 bool SplitCoder::region(Coder& coder, const Refinement& mesh, uint16_t likely, uint16_t& value) {
-  if (coder.bit(in_likely_region_, value == likely))
-    value = likely;
-  else
-    value = static_cast<uint16_t>(coder.natural(region_, value));
-  last_region_ = value;
-  return value < mesh.layout().regions.size();
+  const uint32_t found = coder.bit(in_likely_region_, value == likely) ? likely : coder.natural(region_, value);
+  value = last_region_ = static_cast<uint16_t>(found);
+  return found < mesh.layout().regions.size();
 }
 
 // Beside a new face is the first face of the fan that has a corner besides the parent in common with it.

@@ -57,10 +57,7 @@ struct MeshLayout {
   std::vector<RegionLayout> regions;  ///< two or more, of all faces; empty: there is one
 
   size_t region_count() const { return regions.empty() ? 1 : regions.size(); }
-  /// Twice what a vertex of a region may have been moved along an axis: a step of the coarsest lattice that it may lie
-  /// on, which is that of a region that it touches.
-  float step_of(size_t region) const;
-  /// The size of MeshDecoder's buffers at the final level, bytes.
+  /// The size of MeshDecoder's buffers at the final level, bytes; of several regions with what it takes at once.
   uint64_t buffer_bytes() const;
   /// Fails when a count or a lattice is impossible. No buffer may reach 4 GiB.
   Result<void> check() const;
@@ -116,8 +113,9 @@ struct MeshChanges {
 };
 
 /// Decodes a mesh stream: refines a mesh block by block in buffers that are ready for the GPU. The buffers grow with
-/// the bytes that arrive, so that a false layout costs nothing. After every block the faces refer to decoded vertices,
-/// so that each level can be drawn.
+/// the bytes that arrive, so that a false layout costs nothing; but of several regions the indices take 24 bytes for
+/// each face that a layout promises, which its stream's length and a client's budget (asset/codecs.h) bound. After
+/// every block the faces refer to decoded vertices, so that each level can be drawn.
 class MeshDecoder {
  public:
   /// Begins with the coarsest level. `stream_bytes` is the sum of all blocks' payloads, or more: a layout that promises

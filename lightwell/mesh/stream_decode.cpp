@@ -38,8 +38,8 @@ Result<void> MeshLayout::read(ByteReader& reader) {
 Result<void> MeshLayout::read_regions(ByteReader& reader) {
   constexpr size_t bytes = 9;
   const size_t count = reader.remaining() / bytes;
-  if (reader.remaining() != count * bytes || count == 0 || count > most_regions)
-    return fail("mesh layout", "no regions, or too many");
+  if (reader.remaining() != count * bytes || count < 2 || count > most_regions)
+    return fail("mesh layout", "too few regions, or too many");
   regions.resize(count);
   for (RegionLayout& region : regions) {
     region.faces = reader.u32();
@@ -49,18 +49,14 @@ Result<void> MeshLayout::read_regions(ByteReader& reader) {
   return check();
 }
 
-float MeshLayout::step_of(size_t region) const {
-  if (regions.empty()) return positions.step();
-  return positions.step() * power_of_two(regions[region].shift + most_shift_between);
-}
-
 uint64_t MeshLayout::buffer_bytes() const {
   uint64_t vertex = sizeof(Vec3f);
   if (has_normals) vertex += sizeof(Normal16);
   for (const bool has_set : has_texcoords)
     if (has_set) vertex += sizeof(Vec2f);
   if (has_colors) vertex += sizeof(Color16);
-  return vertices * vertex + faces * uint64_t(sizeof(Face));
+  // The links between faces take their places, too, where regions have theirs.
+  return vertices * vertex + faces * uint64_t(sizeof(Face)) * (regions.empty() ? 1 : 2);
 }
 
 Result<void> MeshLayout::check() const {
@@ -71,12 +67,13 @@ Result<void> MeshLayout::check() const {
   if (base_vertices > vertices || base_faces > faces || loose_faces > faces - base_faces)
     return fail("mesh layout", "its coarsest level is larger than its final one");
   uint64_t of_regions = 0, of_base = 0;
+  bool possible = true;
   for (const RegionLayout& region : regions) {
-    if (region.base_faces > region.faces || region.shift > most_shift) of_regions += most_elements;
+    possible = possible && region.base_faces <= region.faces && region.shift <= most_shift;
     of_regions += region.faces;
     of_base += region.base_faces;
   }
-  if (!regions.empty() && (of_regions != faces || of_base != base_faces))
+  if (!regions.empty() && (!possible || of_regions != faces || of_base != base_faces))
     return fail("mesh layout", "its regions do not make up its faces");
   return {};
 }
@@ -95,7 +92,7 @@ struct MeshDecoder::State {
   /// Whether its region has room for one more face beside so many that are about to come.
   bool has_room(uint16_t region, size_t coming) const {
     const std::vector<RegionLayout>& regions = mesh.layout().regions;
-    return regions.empty() || mesh.indices(region).size() / 3 + coming < regions[region].faces;
+    return regions.empty() || mesh.faces(region) + coming < regions[region].faces;
   }
   /// Deducts vertices and faces from payload_elements; fails when fewer are left.
   Result<void> spend(size_t elements);

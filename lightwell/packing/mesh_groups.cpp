@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "lightwell/mesh/stream.h"
 #include "lightwell/packing/mergeable_parts.h"
@@ -15,8 +17,8 @@ namespace {
 constexpr size_t many_vertices = size_t(1) << 16;
 /// Of what does not touch; a viewer refines streams in the order in which they matter to its picture.
 constexpr size_t most_vertices_of_a_group = size_t(1) << 20;
-/// Of the lattice that a group shares: what it can have over all of it, and what the least primitive needs.
-constexpr float steps_of_all = 1 << 20, steps_of_a_primitive = 1 << 10;
+/// What the lattice that a group shares has over all of it (QuantizeOptions).
+constexpr float steps_of_all = 1 << 20;
 
 /// Sets that grow together.
 class DisjointSets {
@@ -45,9 +47,22 @@ DisjointSets touching(const Scene& scene, const MeshGroup& primitives) {
   return sets;
 }
 
+/// Those whose surface, or a part of it, is a lamp.
+std::set<int> primitives_of_lamps(const Scene& scene, std::span<const ClientLamp> lamps) {
+  std::set<std::pair<int, int>> named;  // by node, and by its place in the mesh
+  for (const ClientLamp& lamp : lamps)
+    if (lamp.luminaire.kind == LuminaireId::Kind::surface) named.emplace(lamp.luminaire.node, lamp.luminaire.primitive);
+  std::set<int> found;
+  for (const Instance& instance : scene.instances) {
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(instance.primitive)];
+    if (named.contains({instance.node, primitive.source_primitive})) found.insert(instance.primitive);
+  }
+  return found;
+}
+
 class Grouping {
  public:
-  explicit Grouping(const Scene& scene) : scene_(scene) {}
+  Grouping(const Scene& scene, std::span<const float> most_errors) : scene_(scene), most_errors_(most_errors) {}
 
   void add(const MeshGroup& alike) {
     if (alike.size() == 1) {
@@ -90,28 +105,24 @@ class Grouping {
     return vertices;
   }
 
-  /// Adds a group, and what is too small for it by itself.
+  /// Adds a group, and what is too fine for it by itself.
   void add_fitting(MeshGroup group) {
     std::ranges::sort(group);
     Box3f all;
-    std::vector<float> sides;
-    for (const int i : group) {
-      const Box3f bounds = scene_.primitives[static_cast<size_t>(i)].mesh.bounds();
-      all.extend(bounds);
-      sides.push_back(max_component(bounds.size()));
-    }
+    for (const int i : group) all.extend(scene_.primitives[static_cast<size_t>(i)].mesh.bounds());
     MeshGroup fitting;
-    for (size_t i = 0; i < group.size(); i++) {
-      const bool fits = sides[i] * steps_of_all >= max_component(all.size()) * steps_of_a_primitive;
+    for (const int i : group) {
+      const bool fits = 2 * most_errors_[static_cast<size_t>(i)] * steps_of_all >= max_component(all.size());
       if (fits && fitting.size() < MeshLayout::most_regions)
-        fitting.push_back(group[i]);
+        fitting.push_back(i);
       else
-        groups_.push_back({group[i]});
+        groups_.push_back({i});
     }
     if (!fitting.empty()) groups_.push_back(std::move(fitting));
   }
 
   const Scene& scene_;
+  std::span<const float> most_errors_;
   std::vector<MeshGroup> groups_;
 };
 
@@ -122,14 +133,19 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-std::vector<MeshGroup> mesh_groups(const Scene& scene) {
+std::vector<MeshGroup> mesh_groups(const Scene& scene, std::span<const float> most_errors,
+                                   std::span<const ClientLamp> lamps) {
+  const std::set<int> lit = primitives_of_lamps(scene, lamps);
   std::map<std::pair<int, unsigned>, MeshGroup> kinds;
+  Grouping grouping(scene, most_errors);
   for (size_t i = 0; i < scene.primitives.size(); i++) {
     const Primitive& primitive = scene.primitives[i];
-    if (!primitive.mesh.faces.empty() && !primitive.deforming)
+    if (primitive.mesh.faces.empty() || primitive.deforming) continue;
+    if (lit.contains(static_cast<int>(i)))
+      grouping.add({static_cast<int>(i)});
+    else
       kinds[{primitive.source_mesh, attributes_of(primitive.mesh)}].push_back(static_cast<int>(i));
   }
-  Grouping grouping(scene);
   for (const auto& [kind, alike] : kinds) grouping.add(alike);
   return grouping.release();
 }

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <span>
 
 #include "lightwell/mesh/connected_faces.h"
-#include "lightwell/mesh/progressive.h"
 
 namespace lightwell {
 namespace {
@@ -21,47 +19,36 @@ int primitive_of(const LuminaireId& id, const Scene& scene) {
   return -1;
 }
 
-/// The positions of all corners of the connected piece of surface that contains `vertex`.
-std::set<Vec3f> places_of_piece(const Mesh& mesh, uint32_t vertex) {
+/// The lattice positions of all corners of the connected piece of surface that contains `vertex`.
+std::set<Vec3i> places_of_piece(const Mesh& mesh, uint32_t vertex, const Lattice& lattice) {
   const std::vector<uint32_t> pieces = connected_faces(mesh);
   const auto found = std::find_if(mesh.faces.begin(), mesh.faces.end(), [&](const Face& face) {
     return std::find(face.begin(), face.end(), vertex) != face.end();
   });
-  std::set<Vec3f> places;
+  std::set<Vec3i> places;
   if (found == mesh.faces.end()) return places;
   const uint32_t piece = pieces[static_cast<size_t>(found - mesh.faces.begin())];
-  for (size_t i = 0; i < pieces.size(); i++)
-    if (pieces[i] == piece)
-      for (const uint32_t corner : mesh.faces[i]) places.insert(mesh.positions[corner]);
+  for (size_t i = 0; i < pieces.size(); i++) {
+    if (pieces[i] != piece) continue;
+    for (const uint32_t corner : mesh.faces[i]) {
+      const Vec3f& p = mesh.positions[corner];
+      places.insert({{lattice.code(p[0]), lattice.code(p[1]), lattice.code(p[2])}});
+    }
+  }
   return places;
 }
 
-/// The faces of a region in the coarsest level.
-std::span<const Face> base_faces(const EncodedMesh& encoded, size_t region) {
-  std::span<const Face> faces = encoded.base.faces;
-  const std::vector<RegionLayout>& regions = encoded.layout.regions;
-  for (size_t i = 0; i < region; i++) faces = faces.subspan(regions[i].base_faces);
-  return regions.empty() ? faces : faces.first(regions[region].base_faces);
-}
-
-/// The vertex of a region's coarsest level that lies where a corner of the piece of surface containing `vertex` does;
-/// the first of such. There is none where the whole piece is smaller than a step of the lattice: then the stream has no
-/// face of it.
-std::optional<uint32_t> vertex_in_stream(const Mesh& mesh, uint32_t vertex, const EncodedMesh& encoded, size_t region) {
-  const std::set<Vec3f> places = places_of_piece(mesh, vertex);
-  const auto moved = [](const Vec3f& from, const Vec3f& to) { return max_component(max(to - from, from - to)); };
-  float nearest = 0.501f * encoded.layout.step_of(region);  // more than half, since floats round
-  uint32_t first = no_vertex;
-  for (const Face& face : base_faces(encoded, region))
-    for (const uint32_t corner : face)
-      for (const Vec3f& place : places) {
-        const float distance = moved(place, encoded.base.positions[corner]);
-        if (distance > nearest || (distance == nearest && corner >= first)) continue;
-        nearest = distance;
-        first = corner;
-      }
-  if (first == no_vertex) return {};
-  return first;
+/// The first vertex of the coarsest level that coincides with a corner of the piece of surface containing `vertex`.
+/// There is none where the whole piece is smaller than a step of the lattice: then the stream has no face of it.
+std::optional<uint32_t> vertex_in_stream(const Mesh& mesh, uint32_t vertex, const EncodedMesh& encoded) {
+  const Lattice& lattice = encoded.layout.positions;
+  const std::set<Vec3i> places = places_of_piece(mesh, vertex, lattice);
+  const std::vector<Vec3f>& base = encoded.base.positions;
+  const auto found = std::find_if(base.begin(), base.end(), [&](const Vec3f& p) {
+    return places.contains({{lattice.exact_code(p[0]), lattice.exact_code(p[1]), lattice.exact_code(p[2])}});
+  });
+  if (found == base.end()) return {};
+  return static_cast<uint32_t>(found - base.begin());
 }
 
 }  // namespace
@@ -73,12 +60,10 @@ std::vector<ClientLamp> lamps_of_pack(std::span<const ClientLamp> lamps, const S
     if (lamp.luminaire.kind != LuminaireId::Kind::surface) continue;
     const int primitive = primitive_of(lamp.luminaire, scene);
     for (const StreamedMesh& mesh : streamed) {
-      const auto found = std::ranges::find(mesh.primitives, primitive);
-      if (found == mesh.primitives.end()) continue;
-      const auto region = static_cast<size_t>(found - mesh.primitives.begin());
+      if (mesh.primitives[0] != primitive) continue;  // those of a lamp are alone
       const Mesh& source =
           mesh.deforming ? mesh.deforming->mesh : scene.primitives[static_cast<size_t>(primitive)].mesh;
-      const auto vertex = vertex_in_stream(source, lamp.luminaire.vertex, mesh.encoded, region);
+      const auto vertex = vertex_in_stream(source, lamp.luminaire.vertex, mesh.encoded);
       lamp.luminaire = vertex ? lamp.luminaire : LuminaireId{.kind = LuminaireId::Kind::surface};
       if (vertex) lamp.luminaire.vertex = *vertex;
     }

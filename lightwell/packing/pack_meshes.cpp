@@ -46,11 +46,13 @@ constexpr uint32_t fewest_vertices = 8;
 struct Source {
   MeshGroup primitives;
   float scale = 0;  // the largest factor by which an instance, or its pose, stretches its lengths
-  const Mesh* posed = nullptr;
+  size_t vertices = 0;
+  const Mesh* posed = nullptr;  // of the first
   std::optional<DeformingMesh> deforming = {};
-  std::optional<UnitedMesh> regions = {};
 
-  const Mesh& mesh() const { return deforming ? deforming->mesh : regions ? regions->mesh : *posed; }
+  bool has_regions() const { return primitives.size() > 1; }
+  /// Where it has no regions.
+  const Mesh& mesh() const { return deforming ? deforming->mesh : *posed; }
 };
 
 std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive& primitive) {
@@ -69,16 +71,17 @@ std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive&
 }
 
 Source source_of(const Scene& scene, const std::vector<float>& scales, const MeshGroup& group) {
-  Source source{group, 0, &scene.primitives[static_cast<size_t>(group[0])].mesh};
-  for (const int primitive : group) source.scale = std::max(source.scale, scales[static_cast<size_t>(primitive)]);
-  if (group.size() > 1) source.regions = united(scene, group);
+  Source source{group, 0, 0, &scene.primitives[static_cast<size_t>(group[0])].mesh};
+  for (const int primitive : group) {
+    source.scale = std::max(source.scale, scales[static_cast<size_t>(primitive)]);
+    source.vertices += scene.primitives[static_cast<size_t>(primitive)].mesh.positions.size();
+  }
   return source;
 }
 
 // What deforms is there once, whatever poses it is shown in, and stays whole where its arrays are not as they should
 // be.
-std::vector<Source> sources(const Scene& scene, std::span<const MeshGroup> groups) {
-  const std::vector<float> scales = largest_scales(scene);
+std::vector<Source> sources(const Scene& scene, const std::vector<float>& scales, std::span<const MeshGroup> groups) {
   std::set<std::pair<int, int>> seen;
   std::vector<Source> found;
   for (const MeshGroup& group : groups) found.push_back(source_of(scene, scales, group));
@@ -118,14 +121,6 @@ const MergedMesh* merged_mesh(const std::optional<MergedParts>& merged, int prim
   return merged && index >= merged->first_primitive ? &merged->meshes[index - merged->first_primitive] : nullptr;
 }
 
-// How far the vertices of a primitive that is alone may be from their places: 0 is what is usual for its mesh.
-float position_error(const Source& source, int primitive, const std::optional<MergedParts>& merged,
-                     const PackOptions& options) {
-  if (options.position_error > 0) return source.scale > 0 ? options.position_error / source.scale : 0;
-  const MergedMesh* parts = merged_mesh(merged, primitive);
-  return parts ? usual_position_error(parts->part_size) : 0;
-}
-
 // What of a source the quantisation has to know beside its mesh.
 struct Quantities {
   QuantizeOptions options;
@@ -133,27 +128,25 @@ struct Quantities {
   std::vector<float> errors;  // of each region
 };
 
-Quantities quantities(const Scene& scene, const Source& source, const std::optional<MergedParts>& merged,
-                      const PackOptions& options) {
+Quantities quantities(const Source& source, const UnitedMesh& united, std::span<const float> errors,
+                      const std::optional<MergedParts>& merged, const PackOptions& options) {
   Quantities out;
   if (source.deforming) out.rows = source.deforming->rows;
   for (const int primitive : source.primitives) {
-    const float error = position_error(source, primitive, merged, options);
-    const Box3f bounds = scene.primitives[static_cast<size_t>(primitive)].mesh.bounds();
-    out.errors.push_back(error > 0 ? error : usual_position_error(max_component(bounds.size())));
-    out.options.position_error = error;
-    if (const MergedMesh* parts = merged_mesh(merged, primitive))
-      out.rows.insert(out.rows.end(), parts->part_of_vertex.begin(), parts->part_of_vertex.end());
+    out.errors.push_back(errors[static_cast<size_t>(primitive)]);
+    const MergedMesh* parts = merged_mesh(merged, primitive);
+    if (parts) out.rows.insert(out.rows.end(), parts->part_of_vertex.begin(), parts->part_of_vertex.end());
+    // Else what is usual for its mesh.
+    if (parts || options.position_error > 0) out.options.position_error = out.errors.back();
   }
   out.options.rows = out.rows;
-  if (!source.regions) return out;
-  out.options.regions = source.regions->region_of_vertex;
-  out.options.region_errors = out.errors;
+  out.options.regions = united.region_of_vertex;
+  if (source.has_regions()) out.options.region_errors = out.errors;
   return out;
 }
 
-// Of each region whether the coarsest level has a face of it, which its array in the opening needs: not where all its
-// faces are those of another.
+// Of each region whether the coarsest level has a face of it, which its array in the opening needs: not where two
+// corners of each of its faces lie at one place of the lattice.
 std::vector<bool> shown_regions(const SimplifiedMesh& simplified) {
   std::vector<bool> shown(simplified.mesh.region_shifts.size());
   for (size_t f = 0; f < simplified.mesh.regions.size(); f++)
@@ -181,23 +174,28 @@ struct Simplified {
   std::vector<std::vector<OpeningForm>> forms;
 };
 
-Result<Simplified> simplify_all(const Scene& scene, std::span<const MeshGroup> groups,
+Result<Simplified> simplify_all(const Scene& scene, std::span<const MeshGroup> groups, std::span<const float> errors,
                                 const std::optional<MergedParts>& merged, const PackOptions& options,
                                 SharedCount& count, Progress& progress) {
   Cancellation cancellation(progress);
+  const std::vector<float> scales = largest_scales(scene);
   Simplified out;
-  for (std::vector<Source> left = sources(scene, groups); !left.empty();) {
+  for (std::vector<Source> left = sources(scene, scales, groups); !left.empty();) {
+    std::vector<std::vector<OpeningForm>> forms(left.size());
     std::vector<std::optional<SimplifiedMesh>> meshes(left.size());
     std::vector<Result<void>> outcomes(left.size());
     parallel_for(left.size(), 1, options.threads, [&](size_t i, size_t, int) {
-      const Quantities wanted = quantities(scene, left[i], merged, options);
-      const auto regions = static_cast<uint32_t>(left[i].primitives.size());
-      auto mesh = simplify(left[i].mesh(), {wanted.options, fewest_vertices * regions}, cancellation);
-      if (mesh)
-        meshes[i] = std::move(*mesh);
-      else
+      const UnitedMesh regions = left[i].has_regions() ? united(scene, left[i].primitives) : UnitedMesh();
+      const Mesh& source = left[i].has_regions() ? regions.mesh : left[i].mesh();
+      const Quantities wanted = quantities(left[i], regions, errors, merged, options);
+      const auto fewest = fewest_vertices * static_cast<uint32_t>(left[i].primitives.size());
+      auto mesh = simplify(source, {wanted.options, fewest}, cancellation);
+      if (!mesh) {
         outcomes[i] = fail(mesh.error());
-      count.add(left[i].mesh().positions.size());
+        return;
+      }
+      forms[i] = opening_forms(source, *mesh, left[i].scale);
+      meshes[i] = std::move(*mesh);
     });
     for (Result<void>& outcome : outcomes) LW_CHECK(outcome);
     std::vector<Source> again;
@@ -205,10 +203,11 @@ Result<Simplified> simplify_all(const Scene& scene, std::span<const MeshGroup> g
       const std::vector<bool> shown = shown_regions(*meshes[i]);
       if (!std::ranges::all_of(shown, std::identity())) {
         for (const MeshGroup& group : divided(left[i].primitives, shown))
-          again.push_back(source_of(scene, largest_scales(scene), group));
+          again.push_back(source_of(scene, scales, group));
         continue;
       }
-      out.forms.push_back(opening_forms(left[i].mesh(), *meshes[i], left[i].scale));
+      count.add(left[i].vertices);
+      out.forms.push_back(std::move(forms[i]));
       out.meshes.push_back(std::move(meshes[i]));
       out.sources.push_back(std::move(left[i]));
     }
@@ -228,9 +227,8 @@ Box3f rounded_outwards(Box3f box) {
 }
 
 // Of each region the bounds at all levels: at coarse ones its faces may have corners at the vertices of others.
-std::vector<Box3f> bounds_of_regions(const ProgressiveMesh& mesh) {
+std::vector<Box3f> bounds_of_regions(const ProgressiveMesh& mesh, const Mesh& final_level) {
   std::vector<Box3f> bounds(mesh.mesh.region_shifts.size());
-  const Mesh final_level = dequantize(mesh.mesh);
   for (size_t f = 0; f < mesh.mesh.regions.size(); f++)
     for (uint32_t v : mesh.mesh.faces[f]) {
       Box3f& box = bounds[mesh.mesh.regions[f]];
@@ -244,8 +242,8 @@ std::vector<Box3f> bounds_of_regions(const ProgressiveMesh& mesh) {
 }
 
 // The table that tells of a merged primitive's faces to which part each belongs.
-std::vector<uint32_t> table_of(const ProgressiveMesh& mesh, size_t region) {
-  if (mesh.mesh.regions.empty()) return part_table(dequantize(mesh.mesh), mesh.mesh.rows);
+std::vector<uint32_t> table_of(const ProgressiveMesh& mesh, const Mesh& final_level, size_t region) {
+  if (mesh.mesh.regions.empty()) return part_table(final_level, mesh.mesh.rows);
   std::vector<Face> faces;
   std::vector<bool> used(mesh.mesh.positions.size());
   for (size_t f = 0; f < mesh.mesh.faces.size(); f++) {
@@ -256,18 +254,34 @@ std::vector<uint32_t> table_of(const ProgressiveMesh& mesh, size_t region) {
   std::vector<uint32_t> rows;
   for (size_t v = 0; v < used.size(); v++)
     if (used[v]) rows.push_back(mesh.mesh.rows[v]);
-  return part_table(mesh_of_faces(dequantize(mesh.mesh), std::move(faces)), rows);
+  return part_table(mesh_of_faces(final_level, std::move(faces)), rows);
 }
 
 }  // namespace
 
+PositionErrors position_errors(const Scene& scene, const std::optional<MergedParts>& merged,
+                               const PackOptions& options) {
+  constexpr float usual_slack = 16;
+  const std::vector<float> scales = largest_scales(scene);
+  PositionErrors errors;
+  for (size_t i = 0; i < scene.primitives.size(); i++) {
+    const MergedMesh* parts = merged_mesh(merged, static_cast<int>(i));
+    const float side = parts ? parts->part_size : max_component(scene.primitives[i].mesh.bounds().size());
+    const bool said = options.position_error > 0 && scales[i] > 0;
+    errors.wanted.push_back(said ? options.position_error / scales[i] : usual_position_error(side));
+    errors.most.push_back(errors.wanted.back() * (said || parts ? 1 : usual_slack));
+  }
+  return errors;
+}
+
 Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::span<const MeshGroup> groups,
-                                                std::optional<MergedParts>& merged, const OpeningBudget& budget,
-                                                const PackOptions& options, Progress& progress) {
+                                                std::span<const float> errors, std::optional<MergedParts>& merged,
+                                                const OpeningBudget& budget, const PackOptions& options,
+                                                Progress& progress) {
   size_t total = 0;
   for (const Primitive& primitive : scene.primitives) total += primitive.mesh.positions.size();
   SharedCount count(progress, total);
-  LW_TRY(ordered, simplify_all(scene, groups, merged, options, count, progress));
+  LW_TRY(ordered, simplify_all(scene, groups, errors, merged, options, count, progress));
   std::vector<Source>& refined = ordered.sources;
   std::vector<std::optional<SimplifiedMesh>>& simplified = ordered.meshes;
 
@@ -279,14 +293,16 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::span<co
     if (rounds[i] > 0 && !progress.cancelled()) {
       ProgressiveMesh mesh = refine_after(std::move(*simplified[i]), rounds[i]);
       encoded[i] = encode(mesh);
-      if (refined[i].regions) bounds[i] = bounds_of_regions(mesh);
+      const bool is_merged = merged_mesh(merged, refined[i].primitives[0]);
+      const Mesh final_level = refined[i].has_regions() || is_merged ? dequantize(mesh.mesh) : Mesh();
+      if (refined[i].has_regions()) bounds[i] = bounds_of_regions(mesh, final_level);
       for (size_t region = 0; region < refined[i].primitives.size(); region++)
         if (const int primitive = refined[i].primitives[region]; merged_mesh(merged, primitive))
-          tables[static_cast<size_t>(primitive)] = table_of(mesh, region);
+          tables[static_cast<size_t>(primitive)] = table_of(mesh, final_level, region);
       if (refined[i].deforming) refined[i].deforming->rows = std::move(mesh.mesh.rows);
     }
     simplified[i].reset();
-    count.add(refined[i].mesh().positions.size());
+    count.add(refined[i].vertices);
   });
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "meshes", "cancelled");
 
@@ -297,7 +313,7 @@ Result<std::vector<StreamedMesh>> encode_meshes(const Scene& scene, std::span<co
     for (const int primitive : refined[i].primitives) {
       const auto index = static_cast<size_t>(primitive);
       const Mesh& mesh = refined[i].deforming ? refined[i].mesh() : scene.primitives[index].mesh;
-      if (!refined[i].regions) bounds[i].push_back(mesh.bounds());
+      if (!refined[i].has_regions()) bounds[i].push_back(mesh.bounds());
       const MergedMesh* parts = merged_mesh(merged, primitive);
       if (!parts) continue;
       if (!is_streamed) tables[index] = part_table(mesh, parts->part_of_vertex);

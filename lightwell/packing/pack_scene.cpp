@@ -236,9 +236,10 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   name_scene(scene.document.json, scene.name);
   content.environment = add_environment(scene, scene.document);
   content.images = shrink_images(scene, scene.document);
-  const std::vector<MeshGroup> groups = mesh_groups(scene);
+  const PositionErrors errors = position_errors(scene, content.parts, options);
+  const std::vector<MeshGroup> groups = mesh_groups(scene, errors.most, stated.lamps);
   const OpeningBudget budget = opening_budget(scene, groups, stated, content);
-  LW_TRY(meshes, encode_meshes(scene, groups, content.parts, budget, options, progress));
+  LW_TRY(meshes, encode_meshes(scene, groups, errors.wanted, content.parts, budget, options, progress));
   content.meshes = std::move(meshes);
   progress.stage("writing", 0, "");
   Document document = std::move(scene.document);

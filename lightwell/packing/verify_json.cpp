@@ -98,10 +98,13 @@ Result<void> verify_named_once(const OpenedPack& pack) {
     for (const BricksDescription& bricks : grid.bricks) names[bricks.stream]++;
   }
   std::set<std::pair<uint32_t, uint32_t>> regions;
+  std::map<uint32_t, size_t> mesh_of;
   for (const RefinedPrimitive& refined : pack.primitives()) {
     if (!regions.emplace(refined.stream, refined.region).second)
       return fail("stream " + std::to_string(refined.stream), "two primitives name one region");
     names[refined.stream]++;
+    if (mesh_of.emplace(refined.stream, refined.mesh).first->second != refined.mesh)
+      return fail("stream " + std::to_string(refined.stream), "its regions belong to two meshes");
   }
   if (pack.parts()) names[pack.parts()->stream]++;
   const auto& streams = pack.reader().directory().streams;

@@ -128,9 +128,10 @@ Result<void> verify_primitive(const OpenedPack& pack, const RefinedPrimitive& re
     for (const uint32_t corner : mesh->indices(refined.region)) shown.extend(coarsest.positions[corner]);
   }
   if (!has_exact_bounds(json, primitive, positions)) return fail(name, "its bounds are not those of its positions");
-  // Rounding to the lattice may move positions out of the bounds of the input by a step.
+  // Rounding to the lattice may move positions out of the bounds of the input by a step; those of regions hold it.
   const bool is_shown = layout.regions.empty() || !mesh->indices(refined.region).empty();
-  if (is_shown && !bound(refined.bounds.lo, refined.bounds.hi, shown, layout.step_of(refined.region)))
+  if (is_shown &&
+      !bound(refined.bounds.lo, refined.bounds.hi, shown, layout.regions.empty() ? layout.positions.step() : 0))
     return fail(name + "." + mesh_extension, "its bounds do not hold its coarsest level");
   return {};
 }

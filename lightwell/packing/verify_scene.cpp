@@ -47,8 +47,8 @@ Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
         LW_TRY(read, read_primitive(scene.document, primitive.source_mesh, primitive.source_primitive, known));
         at_rest = std::move(read);
       }
-      if (!holds(refined.bounds, primitive.deforming ? at_rest : primitive.mesh,
-                 mesh->layout().step_of(refined.region)))
+      const float step = mesh->layout().regions.empty() ? mesh->layout().positions.step() : 0;
+      if (!holds(refined.bounds, primitive.deforming ? at_rest : primitive.mesh, step))
         return fail(element_name("meshes", refined.mesh) + "." + element_name("primitives", refined.primitive),
                     "the bounds in " + std::string(mesh_extension) + " do not hold its final level");
     }

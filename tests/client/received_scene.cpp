@@ -132,7 +132,7 @@ void append_all(Decoder& decoder, const PackReader& reader, uint32_t stream) {
 
 MeshDecoder open_mesh(const PackReader& reader, uint32_t stream) {
   const StreamEntry& entry = reader.directory().streams[stream];
-  const auto [layout, places] = MeshParameters::read(entry.parameters, false).value();
+  const auto [layout, places] = MeshParameters::read(entry.parameters, entry.codec == mesh_codec_regions).value();
   const BaseArrays base = BaseArrays::read(layout, places, glb_chunks(reader.opening()).bin).value();
   return std::move(MeshDecoder::open(layout, base.view(), entry.length).value());
 }

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "lightwell/packing/pack_meshes.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/packing/verify.h"
 #include "tests/mesh/knot.h"
@@ -57,9 +58,11 @@ Mesh moved(Mesh mesh, const Vec3f& by, float scale = 1) {
   return mesh;
 }
 
-std::vector<MeshGroup> groups_of(const std::vector<Mesh>& primitives) {
+std::vector<MeshGroup> groups_of(const std::vector<Mesh>& primitives, const PackOptions& options = {},
+                                 const std::vector<ClientLamp>& lamps = {}) {
   Report report;
-  return mesh_groups(scene_from_document(document_of(primitives), "test", report).value());
+  const Scene scene = scene_from_document(document_of(primitives), "test", report).value();
+  return mesh_groups(scene, position_errors(scene, {}, options).most, lamps);
 }
 
 TEST(MeshGroups, WhatTouchesIsTogetherAndWhatIsSmall) {
@@ -79,6 +82,23 @@ TEST(MeshGroups, OtherAttributesAndWhatIsTiny) {
   textured.texcoords[0].resize(plain.positions.size());
   EXPECT_EQ(groups_of({plain, textured, plain, textured}), (std::vector<MeshGroup>{{0, 2}, {1, 3}}));
   EXPECT_EQ(groups_of({plain, moved(plain, {}, 1e-5f), plain}), (std::vector<MeshGroup>{{0, 2}, {1}}));
+}
+
+// The lattice of a group has 21 bits over all of it.
+TEST(MeshGroups, APositionErrorThatIsAskedForHolds) {
+  const Mesh small = smooth_knot(40, 20), far = moved(small, {}, 300);
+  PackOptions options;
+  options.position_error = 1e-5f * max_component(small.bounds().size());
+  EXPECT_EQ(groups_of({small, far}), (std::vector<MeshGroup>{{0, 1}}));
+  EXPECT_EQ(groups_of({small, far}, options), (std::vector<MeshGroup>{{0}, {1}}));
+}
+
+// A client knows the surface of a lamp by a vertex of it, the first at every level.
+TEST(MeshGroups, WhatALampNamesIsAlone) {
+  const Mesh mesh = smooth_knot(40, 20);
+  ClientLamp lamp;
+  lamp.luminaire = {.kind = LuminaireId::Kind::surface, .node = 0, .primitive = 1};
+  EXPECT_EQ(groups_of({mesh, mesh, mesh}, {}, {lamp}), (std::vector<MeshGroup>{{0, 2}, {1}}));
 }
 
 TEST(MeshGroups, AreOneStreamThatEndsInEachPrimitive) {
@@ -143,19 +163,29 @@ TEST(MeshGroups, BoundsHoldEveryLevel) {
   }
 }
 
-// Faces that are those of another primitive take no part in a refinement: a region of such alone would have no coarsest
-// level. It has a stream, or a place in the opening, of its own.
-TEST(MeshGroups, ASurfaceThatIsThereTwiceFallsApart) {
+// A coat over a surface, or a decal: faces of one place in two materials are there at every level, as far as a surface
+// of their own would be.
+TEST(MeshGroups, ASurfaceMayBeThereTwice) {
   std::vector<Mesh> primitives = banded_knot();
-  primitives.push_back(primitives[1]);
+  primitives.push_back(smooth_knot(160, 60));
   const Packed packed = pack(document_of(primitives));
   const OpenedPack opened = open(packed.file);
   const Verification verification = verify_pack(opened);
   ASSERT_TRUE(verification.errors.empty()) << testing::PrintToString(verification.errors);
-  Report report;
-  const Scene scene = scene_from_document(unpack_document(opened, {}, report).value(), "again", report).value();
-  ASSERT_EQ(scene.primitives.size(), 5u);
-  for (size_t i = 0; i < 5; i++) EXPECT_EQ(scene.primitives[i].mesh.faces.size(), primitives[i].faces.size());
+  const auto faces_at = [&](float share) {
+    Report report;
+    const Scene scene =
+        scene_from_document(unpack_document(opened, {.share = share}, report).value(), "again", report).value();
+    std::vector<size_t> faces;
+    for (const Primitive& primitive : scene.primitives) faces.push_back(primitive.mesh.faces.size());
+    return faces;
+  };
+  const std::vector<size_t> all = faces_at(1), half = faces_at(0.5f);
+  ASSERT_EQ(all.size(), 5u);
+  for (size_t i = 0; i < 5; i++) {
+    EXPECT_EQ(all[i], primitives[i].faces.size());
+    EXPECT_GT(half[i], all[i] / 3) << "primitive " << i;
+  }
 }
 
 TEST(MeshGroups, VerifyFindsRegionsThatAreNamedWrongly) {
@@ -164,21 +194,23 @@ TEST(MeshGroups, VerifyFindsRegionsThatAreNamedWrongly) {
   const auto errors = [&](const auto& edit) {
     Json json = opened.json();
     std::vector<Json*> said;
-    for (Json& primitive : json["meshes"][0]["primitives"]) said.push_back(&primitive["extensions"][mesh_extension]);
+    for (Json& primitive : json["meshes"][0]["primitives"]) said.push_back(&primitive["extensions"]);
     edit(said);
     std::vector<PackStream> streams = streams_of(opened.reader());
     const std::vector<uint8_t> file = rewrite(opened, json, std::move(streams));
-    const auto again = try_open(file);
-    return !again || !verify_pack(*again).errors.empty();
+    return !verify_pack(open(file)).errors.empty();
   };
   using Said = std::vector<Json*>;
   EXPECT_FALSE(errors([](const Said&) {}));
-  EXPECT_TRUE(errors([](const Said& said) { (*said[1])["region"] = 2; }));
-  EXPECT_TRUE(errors([](const Said& said) { (*said[3])["region"] = 4; }));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[1])[mesh_extension]["region"] = 2; }));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[3])[mesh_extension]["region"] = 4; }));
   EXPECT_TRUE(errors([](const Said& said) { std::swap(*said[1], *said[2]); }));
-  EXPECT_TRUE(errors([](const Said& said) { (*said[2])["faces"] = 7; }));
-  EXPECT_TRUE(errors([](const Said& said) { said[3]->clear(); }));
-  EXPECT_TRUE(errors([](const Said& said) { (*said[1])["bounds"]["max"][0] = -1000; }));
+  EXPECT_TRUE(errors([](const Said& said) { (*said[2])[mesh_extension]["faces"] = 7; }));
+  EXPECT_TRUE(errors([](const Said& said) { said[3]->erase(mesh_extension); }));
+  EXPECT_TRUE(errors([](const Said& said) {
+    (*said[1])[mesh_extension]["bounds"]["max"][0] =
+        (*said[1])[mesh_extension]["bounds"]["max"][0].get<double>() - 0.05;
+  }));
 }
 
 }  // namespace

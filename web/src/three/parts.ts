@@ -119,7 +119,7 @@ export function partsOfFaces(geometry: BufferGeometry, table: number[]): Uint32A
   const pieces = [...new Set(corners.map((vertex) => joined[vertex]!))].sort((a, b) => a - b);
   const number = new Map(pieces.map((vertex, piece) => [vertex, piece]));
   const pieceOf = (corner: number) => number.get(joined[corners[corner]!]!)!;
-  const place = placesOf(geometry);
+  const place = placesOf(geometry, Uint32Array.from(new Set(corners)));
   const firstAt = new Map<number, number>();
   for (let corner = 0; corner < corners.length; corner++) {
     const at = place[corners[corner]!]!;
@@ -149,14 +149,13 @@ function joinedVertices(corners: ArrayLike<number>, count: number): Uint32Array 
   return parent.map((_, vertex) => root(vertex));
 }
 
-/** For each vertex, one that stands for all at the same position. */
-function placesOf(geometry: BufferGeometry): Uint32Array {
+/** For each of some vertices, one that stands for all of them at the same position. */
+function placesOf(geometry: BufferGeometry, order: Uint32Array): Uint32Array {
   const position = geometry.getAttribute('position');
-  const order = Uint32Array.from({ length: position.count }, (_, vertex) => vertex);
   const compare = (a: number, b: number) =>
     position.getX(a) - position.getX(b) || position.getY(a) - position.getY(b) || position.getZ(a) - position.getZ(b);
   order.sort(compare);
-  const place = new Uint32Array(order.length);
+  const place = new Uint32Array(position.count);
   order.forEach((vertex, i) => (place[vertex] = i > 0 && compare(order[i - 1]!, vertex) === 0 ? place[order[i - 1]!]! : vertex));
   return place;
 }

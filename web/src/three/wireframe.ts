@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Material, Mesh, Object3D, WebGLRenderer } from 'three';
+import type { BufferAttribute, BufferGeometry, Material, Mesh, Object3D, WebGLRenderer } from 'three';
 
 /** What this code uses of https://registry.khronos.org/webgl/extensions/WEBGL_polygon_mode/ */
 interface PolygonMode {
@@ -10,8 +10,8 @@ interface PolygonMode {
 
 /**
  * Draws all meshes as their edges, or as surfaces again. Where the GPU draws the edges of triangles by itself, outlines cost no memory and
- * follow what streams in. Elsewhere three.js makes a buffer of lines for each state of a mesh that is drawn so: they wait until all is
- * `complete`. A script of its own, which imports nothing that the page has.
+ * follow what streams in. Elsewhere three.js makes a buffer of lines for each state of a mesh that is drawn so, of all of its index buffer: they
+ * wait until all is `complete`, and each mesh gets an index buffer of what it draws. A script of its own, which imports nothing that the page has.
  */
 export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: boolean, complete: boolean): void {
   const drawsEdges = renderer.extensions.has('WEBGL_polygon_mode');
@@ -19,8 +19,16 @@ export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: bo
     const mesh = object as Mesh;
     if (!mesh.isMesh) return;
     if (drawsEdges) setEdges(mesh, renderer, wireframe);
-    else if (complete) for (const material of [mesh.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
+    else if (complete) ownIndices(mesh.geometry);
+    if (!drawsEdges && complete) for (const material of [mesh.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
   });
+}
+
+function ownIndices(geometry: BufferGeometry): void {
+  const { index, drawRange } = geometry;
+  if (index === null || drawRange.count >= index.count) return;
+  const own = index.array.slice(drawRange.start, drawRange.start + drawRange.count);
+  geometry.setIndex(new (index.constructor as typeof BufferAttribute)(own, 1)).setDrawRange(0, own.length);
 }
 
 function setEdges(mesh: Mesh, renderer: WebGLRenderer, wireframe: boolean): void {
