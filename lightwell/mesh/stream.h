@@ -48,7 +48,7 @@ struct MeshLayout {
 
   uint32_t vertices = 0, faces = 0;            ///< of the final level
   uint32_t base_vertices = 0, base_faces = 0;  ///< of the coarsest level
-  uint32_t loose_faces = 0;                    ///< the last of `faces`: degenerate and repeated ones
+  uint32_t loose_faces = 0;                    ///< the last of `faces`: degenerate, or repeated in their region
   bool has_normals = false, has_colors = false;
   std::array<bool, 2> has_texcoords{};
   Lattice positions;

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "lightwell/mesh/stream.h"
@@ -34,18 +35,60 @@ class DisjointSets {
   std::vector<size_t> parent_;
 };
 
-/// Joins the primitives that have a vertex at one place.
-DisjointSets touching(const Scene& scene, const MeshGroup& primitives) {
-  std::vector<std::pair<Vec3f, uint32_t>> places;
-  for (uint32_t i = 0; i < primitives.size(); i++)
-    for (const Vec3f& p : scene.primitives[static_cast<size_t>(primitives[i])].mesh.positions)
-      if (is_finite(p)) places.emplace_back(p, i);
-  std::ranges::sort(places);
-  DisjointSets sets(primitives.size());
-  for (size_t i = 1; i < places.size(); i++)
-    if (places[i].first == places[i - 1].first) sets.join(places[i].second, places[i - 1].second);
-  return sets;
-}
+/// The places of the vertices of some primitives: vertices of equal positions have the same number.
+class Places {
+ public:
+  Places(const Scene& scene, const MeshGroup& primitives) {
+    for (const int primitive : primitives) {
+      const Mesh& mesh = scene.primitives[static_cast<size_t>(primitive)].mesh;
+      meshes_.push_back(&mesh);
+      of_.emplace_back(mesh.positions.size(), nowhere);
+      for (uint32_t v = 0; v < mesh.positions.size(); v++)
+        if (is_finite(mesh.positions[v]))
+          sorted_.emplace_back(mesh.positions[v], static_cast<uint32_t>(meshes_.size() - 1), v);
+    }
+    std::ranges::sort(sorted_);
+    uint32_t place = 0;
+    for (size_t i = 0; i < sorted_.size(); i++) {
+      place += i > 0 && std::get<0>(sorted_[i]) != std::get<0>(sorted_[i - 1]);
+      of_[std::get<1>(sorted_[i])][std::get<2>(sorted_[i])] = place;
+    }
+  }
+
+  /// Joins the primitives that have a vertex at one place.
+  DisjointSets touching() const {
+    DisjointSets sets(meshes_.size());
+    for (size_t i = 1; i < sorted_.size(); i++)
+      if (std::get<0>(sorted_[i]) == std::get<0>(sorted_[i - 1]))
+        sets.join(std::get<1>(sorted_[i]), std::get<1>(sorted_[i - 1]));
+    return sets;
+  }
+
+  /// How many faces of each primitive lie where one of an earlier one does, whichever way they are turned.
+  std::vector<size_t> repeated() const {
+    std::vector<std::pair<Face, uint32_t>> faces;
+    for (uint32_t i = 0; i < meshes_.size(); i++)
+      for (const Face& face : meshes_[i]->faces) {
+        Face places{of_[i][face[0]], of_[i][face[1]], of_[i][face[2]]};
+        std::ranges::sort(places);
+        faces.emplace_back(places, i);
+      }
+    std::ranges::sort(faces);
+    std::vector<size_t> repeated(meshes_.size());
+    for (size_t first = 0, i = 0; i < faces.size(); i++) {
+      if (faces[i].first != faces[first].first) first = i;
+      if (faces[i].second != faces[first].second) repeated[faces[i].second]++;
+    }
+    return repeated;
+  }
+
+ private:
+  static constexpr uint32_t nowhere = 0xffffffffu;
+
+  std::vector<const Mesh*> meshes_;
+  std::vector<std::tuple<Vec3f, uint32_t, uint32_t>> sorted_;  // position, mesh, vertex
+  std::vector<std::vector<uint32_t>> of_;
+};
 
 /// Those whose surface, or a part of it, is a lamp.
 std::set<int> primitives_of_lamps(const Scene& scene, std::span<const ClientLamp> lamps) {
@@ -64,12 +107,13 @@ class Grouping {
  public:
   Grouping(const Scene& scene, std::span<const float> most_errors) : scene_(scene), most_errors_(most_errors) {}
 
-  void add(const MeshGroup& alike) {
+  void add(MeshGroup alike) {
+    if (alike.size() > 1) alike = without_coats(alike);
     if (alike.size() == 1) {
       groups_.push_back(alike);
       return;
     }
-    DisjointSets sets = touching(scene_, alike);
+    DisjointSets sets = Places(scene_, alike).touching();
     std::map<size_t, MeshGroup> pieces;
     for (size_t i = 0; i < alike.size(); i++) pieces[sets.of(i)].push_back(alike[i]);
     MeshGroup small;
@@ -99,6 +143,20 @@ class Grouping {
   }
 
  private:
+  /// Puts what lies on others apart, in another material or as their back: an edge of four faces collapses to no form
+  /// that both have, so that it would stay while all else of the group goes.
+  MeshGroup without_coats(const MeshGroup& alike) {
+    constexpr size_t few = 50;  // one face in so many may be a decal's
+    const std::vector<size_t> repeated = Places(scene_, alike).repeated();
+    MeshGroup left;
+    for (size_t i = 0; i < alike.size(); i++)
+      if (few * repeated[i] > scene_.primitives[static_cast<size_t>(alike[i])].mesh.faces.size())
+        groups_.push_back({alike[i]});
+      else
+        left.push_back(alike[i]);
+    return left;
+  }
+
   size_t vertices_of(const MeshGroup& group) const {
     size_t vertices = 0;
     for (const int i : group) vertices += scene_.primitives[static_cast<size_t>(i)].mesh.positions.size();

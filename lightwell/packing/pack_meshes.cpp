@@ -47,6 +47,7 @@ struct Source {
   MeshGroup primitives;
   float scale = 0;  // the largest factor by which an instance, or its pose, stretches its lengths
   size_t vertices = 0;
+  bool counted = false;         // as simplified
   const Mesh* posed = nullptr;  // of the first
   std::optional<DeformingMesh> deforming = {};
 
@@ -71,7 +72,7 @@ std::optional<DeformingMesh> deforming_mesh(const Scene& scene, const Primitive&
 }
 
 Source source_of(const Scene& scene, const std::vector<float>& scales, const MeshGroup& group) {
-  Source source{group, 0, 0, &scene.primitives[static_cast<size_t>(group[0])].mesh};
+  Source source{group, 0, 0, false, &scene.primitives[static_cast<size_t>(group[0])].mesh};
   for (const int primitive : group) {
     source.scale = std::max(source.scale, scales[static_cast<size_t>(primitive)]);
     source.vertices += scene.primitives[static_cast<size_t>(primitive)].mesh.positions.size();
@@ -136,8 +137,11 @@ Quantities quantities(const Source& source, const UnitedMesh& united, std::span<
     out.errors.push_back(errors[static_cast<size_t>(primitive)]);
     const MergedMesh* parts = merged_mesh(merged, primitive);
     if (parts) out.rows.insert(out.rows.end(), parts->part_of_vertex.begin(), parts->part_of_vertex.end());
-    // Else what is usual for its mesh.
-    if (parts || options.position_error > 0) out.options.position_error = out.errors.back();
+    // Else what is usual for its mesh. What deforms has the scale of its pose.
+    if (options.position_error > 0)
+      out.options.position_error = source.scale > 0 ? options.position_error / source.scale : 0;
+    else if (parts)
+      out.options.position_error = out.errors.back();
   }
   out.options.rows = out.rows;
   out.options.regions = united.region_of_vertex;
@@ -185,6 +189,7 @@ Result<Simplified> simplify_all(const Scene& scene, std::span<const MeshGroup> g
     std::vector<std::optional<SimplifiedMesh>> meshes(left.size());
     std::vector<Result<void>> outcomes(left.size());
     parallel_for(left.size(), 1, options.threads, [&](size_t i, size_t, int) {
+      if (!left[i].counted) count.add(left[i].vertices);
       const UnitedMesh regions = left[i].has_regions() ? united(scene, left[i].primitives) : UnitedMesh();
       const Mesh& source = left[i].has_regions() ? regions.mesh : left[i].mesh();
       const Quantities wanted = quantities(left[i], regions, errors, merged, options);
@@ -204,9 +209,9 @@ Result<Simplified> simplify_all(const Scene& scene, std::span<const MeshGroup> g
       if (!std::ranges::all_of(shown, std::identity())) {
         for (const MeshGroup& group : divided(left[i].primitives, shown))
           again.push_back(source_of(scene, scales, group));
+        for (Source& piece : again) piece.counted = true;
         continue;
       }
-      count.add(left[i].vertices);
       out.forms.push_back(std::move(forms[i]));
       out.meshes.push_back(std::move(meshes[i]));
       out.sources.push_back(std::move(left[i]));
@@ -261,14 +266,16 @@ std::vector<uint32_t> table_of(const ProgressiveMesh& mesh, const Mesh& final_le
 
 PositionErrors position_errors(const Scene& scene, const std::optional<MergedParts>& merged,
                                const PackOptions& options) {
-  constexpr float usual_slack = 16;
+  constexpr float usual_slack = 16, steps_of_a_form = 64;
   const std::vector<float> scales = largest_scales(scene);
   PositionErrors errors;
   for (size_t i = 0; i < scene.primitives.size(); i++) {
     const MergedMesh* parts = merged_mesh(merged, static_cast<int>(i));
     const float side = parts ? parts->part_size : max_component(scene.primitives[i].mesh.bounds().size());
     const bool said = options.position_error > 0 && scales[i] > 0;
-    errors.wanted.push_back(said ? options.position_error / scales[i] : usual_position_error(side));
+    // A primitive keeps its form however large the error is that is asked for.
+    const float largest = 0.5f * side / steps_of_a_form;
+    errors.wanted.push_back(said ? std::min(options.position_error / scales[i], largest) : usual_position_error(side));
     errors.most.push_back(errors.wanted.back() * (said || parts ? 1 : usual_slack));
   }
   return errors;

@@ -10,6 +10,7 @@
 #include "lightwell/packing/verify.h"
 #include "tests/mesh/knot.h"
 #include "tests/mesh/level.h"
+#include "tests/mesh/shapes.h"
 #include "tests/packing/sample_scenes.h"
 
 namespace lightwell {
@@ -72,16 +73,19 @@ TEST(MeshGroups, WhatTouchesIsTogetherAndWhatIsSmall) {
   const Vec3f away = Vec3f::filled(20);
   EXPECT_EQ(groups_of({small, moved(small, away), large, moved(large, away * 3.0f)}),
             (std::vector<MeshGroup>{{0, 1}, {2}, {3}}));
-  // The same surface twice touches everywhere.
-  EXPECT_EQ(groups_of({small, large, large}), (std::vector<MeshGroup>{{0}, {1, 2}}));
+  const std::vector<Mesh> halves = parts_of(large, 2, [&](size_t f) { return 2 * f / large.faces.size(); });
+  ASSERT_GT(halves[0].positions.size() + halves[1].positions.size(), 65536u);
+  EXPECT_EQ(groups_of({small, halves[0], halves[1]}), (std::vector<MeshGroup>{{0}, {1, 2}}));
 }
 
 TEST(MeshGroups, OtherAttributesAndWhatIsTiny) {
   const Mesh plain = smooth_knot(40, 20);
   Mesh textured = plain;
   textured.texcoords[0].resize(plain.positions.size());
-  EXPECT_EQ(groups_of({plain, textured, plain, textured}), (std::vector<MeshGroup>{{0, 2}, {1, 3}}));
-  EXPECT_EQ(groups_of({plain, moved(plain, {}, 1e-5f), plain}), (std::vector<MeshGroup>{{0, 2}, {1}}));
+  const Vec3f away = Vec3f::filled(5);
+  EXPECT_EQ(groups_of({plain, textured, moved(plain, away), moved(textured, away)}),
+            (std::vector<MeshGroup>{{0, 2}, {1, 3}}));
+  EXPECT_EQ(groups_of({plain, moved(plain, {}, 1e-5f), moved(plain, away)}), (std::vector<MeshGroup>{{0, 2}, {1}}));
 }
 
 // The lattice of a group has 21 bits over all of it.
@@ -96,9 +100,11 @@ TEST(MeshGroups, APositionErrorThatIsAskedForHolds) {
 // A client knows the surface of a lamp by a vertex of it, the first at every level.
 TEST(MeshGroups, WhatALampNamesIsAlone) {
   const Mesh mesh = smooth_knot(40, 20);
+  const Vec3f away = Vec3f::filled(5);
   ClientLamp lamp;
   lamp.luminaire = {.kind = LuminaireId::Kind::surface, .node = 0, .primitive = 1};
-  EXPECT_EQ(groups_of({mesh, mesh, mesh}, {}, {lamp}), (std::vector<MeshGroup>{{0, 2}, {1}}));
+  EXPECT_EQ(groups_of({mesh, moved(mesh, away), moved(mesh, -away)}, {}, {lamp}),
+            (std::vector<MeshGroup>{{0, 2}, {1}}));
 }
 
 TEST(MeshGroups, AreOneStreamThatEndsInEachPrimitive) {
@@ -163,29 +169,56 @@ TEST(MeshGroups, BoundsHoldEveryLevel) {
   }
 }
 
-// A coat over a surface, or a decal: faces of one place in two materials are there at every level, as far as a surface
-// of their own would be.
-TEST(MeshGroups, ASurfaceMayBeThereTwice) {
+/// The same faces from behind.
+Mesh turned(Mesh mesh) {
+  for (Face& face : mesh.faces) std::swap(face[1], face[2]);
+  for (Vec3f& normal : mesh.normals) normal = -normal;
+  return mesh;
+}
+
+// A coat in another material, or a back: an edge of four faces would stay while all else goes. A decal of few faces
+// may.
+TEST(MeshGroups, WhatLiesOnOthersIsAlone) {
+  const std::vector<Mesh> bands = banded_knot();
+  EXPECT_EQ(groups_of({bands[0], bands[1], bands[2], bands[3], bands[1]}), (std::vector<MeshGroup>{{0, 1, 2, 3}, {4}}));
+  EXPECT_EQ(groups_of({bands[0], bands[1], bands[2], bands[3], turned(bands[1])}),
+            (std::vector<MeshGroup>{{0, 1, 2, 3}, {4}}));
+  Mesh decal = bands[1];
+  const Mesh apart = moved(bands[0], Vec3f::filled(20));
+  append(decal, apart);
+  decal.normals.insert(decal.normals.end(), apart.normals.begin(), apart.normals.end());
+  decal.faces.erase(decal.faces.begin() + 40, decal.faces.begin() + static_cast<ptrdiff_t>(bands[1].faces.size()));
+  EXPECT_EQ(groups_of({bands[0], bands[1], decal}), (std::vector<MeshGroup>{{0, 1, 2}}));
+}
+
+TEST(MeshGroups, ADecalIsThereAtTheEnd) {
   std::vector<Mesh> primitives = banded_knot();
-  primitives.push_back(smooth_knot(160, 60));
+  Mesh decal = mesh_of_faces(primitives[1], {primitives[1].faces.begin(), primitives[1].faces.begin() + 30});
+  const Mesh apart = moved(smooth_knot(80, 40), Vec3f::filled(20));
+  append(decal, apart);
+  decal.normals.insert(decal.normals.end(), apart.normals.begin(), apart.normals.end());
+  primitives.push_back(decal);
   const Packed packed = pack(document_of(primitives));
   const OpenedPack opened = open(packed.file);
   const Verification verification = verify_pack(opened);
   ASSERT_TRUE(verification.errors.empty()) << testing::PrintToString(verification.errors);
-  const auto faces_at = [&](float share) {
-    Report report;
-    const Scene scene =
-        scene_from_document(unpack_document(opened, {.share = share}, report).value(), "again", report).value();
-    std::vector<size_t> faces;
-    for (const Primitive& primitive : scene.primitives) faces.push_back(primitive.mesh.faces.size());
-    return faces;
-  };
-  const std::vector<size_t> all = faces_at(1), half = faces_at(0.5f);
-  ASSERT_EQ(all.size(), 5u);
-  for (size_t i = 0; i < 5; i++) {
-    EXPECT_EQ(all[i], primitives[i].faces.size());
-    EXPECT_GT(half[i], all[i] / 3) << "primitive " << i;
-  }
+  ASSERT_EQ(opened.primitives().size(), 5u);
+  EXPECT_EQ(opened.primitives()[4].stream, opened.primitives()[0].stream);
+  Report report;
+  const Scene scene = scene_from_document(unpack_document(opened, {}, report).value(), "again", report).value();
+  for (size_t i = 0; i < 5; i++) EXPECT_EQ(scene.primitives[i].mesh.faces.size(), primitives[i].faces.size());
+}
+
+// A small primitive keeps its form beside a large one whatever error is asked for.
+TEST(MeshGroups, ALargePositionErrorKeepsForms) {
+  const Mesh ball = smooth_knot(40, 20), large = moved(smooth_knot(160, 60), {}, 100);
+  Report report;
+  const Scene scene = scene_from_document(document_of({ball, large}), "test", report).value();
+  PackOptions options;
+  options.position_error = 0.5f;
+  const float side = max_component(ball.bounds().size());
+  EXPECT_LE(position_errors(scene, {}, options).wanted[0], side / 128);
+  EXPECT_EQ(position_errors(scene, {}, options).wanted[1], 0.5f);
 }
 
 TEST(MeshGroups, VerifyFindsRegionsThatAreNamedWrongly) {
@@ -207,6 +240,13 @@ TEST(MeshGroups, VerifyFindsRegionsThatAreNamedWrongly) {
   EXPECT_TRUE(errors([](const Said& said) { std::swap(*said[1], *said[2]); }));
   EXPECT_TRUE(errors([](const Said& said) { (*said[2])[mesh_extension]["faces"] = 7; }));
   EXPECT_TRUE(errors([](const Said& said) { said[3]->erase(mesh_extension); }));
+  Json apart = opened.json();
+  Json& primitives = apart["meshes"][0]["primitives"];
+  apart["meshes"].push_back({{"primitives", {primitives[3]}}});
+  primitives.erase(3);
+  const std::vector<uint8_t> in_two_meshes = rewrite(opened, apart, streams_of(opened.reader()));
+  EXPECT_NE(testing::PrintToString(verify_pack(open(in_two_meshes)).errors).find("belong to two meshes"),
+            std::string::npos);
   EXPECT_TRUE(errors([](const Said& said) {
     (*said[1])[mesh_extension]["bounds"]["max"][0] =
         (*said[1])[mesh_extension]["bounds"]["max"][0].get<double>() - 0.05;

@@ -162,8 +162,10 @@ void add_mesh(MeshDecoder& decoder, Digest& digest) {
 void shade(const MeshDecoder& decoder, Digest& digest) {
   Mesh mesh;
   mesh.positions.assign(decoder.positions().begin(), decoder.positions().end());
-  for (size_t i = 0; i < 3 * size_t(decoder.faces()); i += 3)
-    mesh.faces.push_back({decoder.indices()[i], decoder.indices()[i + 1], decoder.indices()[i + 2]});
+  for (size_t region = 0; region < decoder.layout().region_count(); region++) {
+    const auto corners = decoder.indices(region);
+    for (size_t i = 0; i < corners.size(); i += 3) mesh.faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
+  }
   digest.add(smooth_normals(mesh));
 }
 

@@ -214,7 +214,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   /**
    * Shows the triangles' edges. A browser with WEBGL_polygon_mode does so at once and without further memory. In another the
-   * edges are shown once all has come, and the first time takes GPU memory for them: 48 bytes a face. Resolves when what can be shown so is.
+   * edges are shown once all has come, and the first time takes GPU memory for them: 36 bytes a face. Resolves when what can be shown so is.
    */
   async setWireframe(wireframe: boolean): Promise<void> {
     if (!wireframe && !this.#edges) return;

@@ -19,14 +19,19 @@ export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: bo
     const mesh = object as Mesh;
     if (!mesh.isMesh) return;
     if (drawsEdges) setEdges(mesh, renderer, wireframe);
-    else if (complete) ownIndices(mesh.geometry);
-    if (!drawsEdges && complete) for (const material of [mesh.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
+    else if (complete) {
+      if (wireframe) ownIndices(mesh.geometry);
+      for (const material of [mesh.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
+    }
   });
 }
 
+/** DynamicDrawUsage, which the indices of what streams have. */
+const STREAMED = 35048;
+
 function ownIndices(geometry: BufferGeometry): void {
   const { index, drawRange } = geometry;
-  if (index === null || drawRange.count >= index.count) return;
+  if (index?.usage !== STREAMED) return;
   const own = index.array.slice(drawRange.start, drawRange.start + drawRange.count);
   geometry.setIndex(new (index.constructor as typeof BufferAttribute)(own, 1)).setDrawRange(0, own.length);
 }
