@@ -20,7 +20,7 @@ export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: bo
     if (!mesh.isMesh) return;
     if (drawsEdges) setEdges(mesh, renderer, wireframe);
     else if (complete) {
-      if (wireframe) ownIndices(mesh.geometry);
+      useIndices(mesh.geometry, wireframe);
       for (const material of [mesh.material].flat() as (Material & { wireframe?: boolean })[]) material.wireframe = wireframe;
     }
   });
@@ -28,12 +28,18 @@ export function showEdges(root: Object3D, renderer: WebGLRenderer, wireframe: bo
 
 /** DynamicDrawUsage, which the indices of what streams have. */
 const STREAMED = 35048;
+/** Of geometries whose edges were shown: what they draw of an index buffer, and that in one of its own. */
+const indices = new WeakMap<BufferGeometry, { shared: BufferAttribute; start: number; own: BufferAttribute }>();
 
-function ownIndices(geometry: BufferGeometry): void {
+function useIndices(geometry: BufferGeometry, own: boolean): void {
   const { index, drawRange } = geometry;
-  if (index?.usage !== STREAMED) return;
-  const own = index.array.slice(drawRange.start, drawRange.start + drawRange.count);
-  geometry.setIndex(new (index.constructor as typeof BufferAttribute)(own, 1)).setDrawRange(0, own.length);
+  const { start, count } = drawRange;
+  if (own && index?.usage === STREAMED && !indices.has(geometry)) {
+    const Attribute = index.constructor as typeof BufferAttribute;
+    indices.set(geometry, { shared: index, start, own: new Attribute(index.array.slice(start, start + count), 1) });
+  }
+  const known = indices.get(geometry);
+  if (known !== undefined) geometry.setIndex(own ? known.own : known.shared).setDrawRange(own ? 0 : known.start, count);
 }
 
 function setEdges(mesh: Mesh, renderer: WebGLRenderer, wireframe: boolean): void {
