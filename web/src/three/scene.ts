@@ -397,6 +397,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
 
   #onComplete(): void {
     this.#complete = true;
+    this.#direct?.finish();
     if (this.#wireframe) this.#showEdges();
     this.dispatchEvent({ type: 'complete' });
   }

@@ -168,6 +168,14 @@ export class DirectLight {
     }, Math.max(0, this.#mapsTime + INTERVAL - performance.now()));
   }
 
+  /** The meshes have all of their faces: what casts shadows is seen anew at once. */
+  finish(): void {
+    if (this.#growing === undefined) return;
+    clearTimeout(this.#growing);
+    this.#growing = undefined;
+    this.restart();
+  }
+
   /** Begins anew, after the GPU has lost all or the scene has changed. */
   restart(): void {
     this.#seenStale = true;
