@@ -20,7 +20,7 @@ const [RECORD, INPUT, BYTES] = [2 * GIB, 2 * GIB + 4096, 2 * GIB + 8192];
 /** The functions of a module whose memory ends beyond 2 GiB; like WebAssembly's own they give addresses as signed numbers. */
 function highModule(functions) {
   const memory = new WebAssembly.Memory({ initial: (2 * GIB) / PAGE + 1 });
-  return { memory, lw_abi_version: () => 1, lw_create: () => BYTES | 0, lw_record: () => RECORD | 0, lw_input: () => INPUT | 0, ...functions };
+  return { memory, lw_abi_version: () => 2, lw_create: () => BYTES | 0, lw_record: () => RECORD | 0, lw_input: () => INPUT | 0, ...functions };
 }
 
 const say = ({ memory }, ...words) => new Uint32Array(memory.buffer, RECORD, words.length).set(words);
