@@ -55,12 +55,17 @@ class Places {
     }
   }
 
-  /// Joins the primitives that have a vertex at one place.
-  DisjointSets touching() const {
+  /// Joins the primitives that have a vertex at one place, but for those that are apart.
+  DisjointSets touching(const std::vector<bool>& apart) const {
     DisjointSets sets(meshes_.size());
-    for (size_t i = 1; i < sorted_.size(); i++)
-      if (std::get<0>(sorted_[i]) == std::get<0>(sorted_[i - 1]))
-        sets.join(std::get<1>(sorted_[i]), std::get<1>(sorted_[i - 1]));
+    const Vec3f* last = nullptr;
+    uint32_t of_last = 0;
+    for (const auto& [position, mesh, vertex] : sorted_) {
+      if (apart[mesh]) continue;
+      if (last && *last == position) sets.join(mesh, of_last);
+      last = &position;
+      of_last = mesh;
+    }
     return sets;
   }
 
@@ -107,15 +112,20 @@ class Grouping {
  public:
   Grouping(const Scene& scene, std::span<const float> most_errors) : scene_(scene), most_errors_(most_errors) {}
 
-  void add(MeshGroup alike) {
-    if (alike.size() > 1) alike = without_coats(alike);
+  void add(const MeshGroup& alike) {
     if (alike.size() == 1) {
       groups_.push_back(alike);
       return;
     }
-    DisjointSets sets = Places(scene_, alike).touching();
+    const Places places(scene_, alike);
+    const std::vector<bool> apart = coats(places, alike);
+    DisjointSets sets = places.touching(apart);
     std::map<size_t, MeshGroup> pieces;
-    for (size_t i = 0; i < alike.size(); i++) pieces[sets.of(i)].push_back(alike[i]);
+    for (size_t i = 0; i < alike.size(); i++)
+      if (apart[i])
+        groups_.push_back({alike[i]});
+      else
+        pieces[sets.of(i)].push_back(alike[i]);
     MeshGroup small;
     size_t vertices_of_small = 0;
     const auto close = [&] {
@@ -143,18 +153,15 @@ class Grouping {
   }
 
  private:
-  /// Puts what lies on others apart, in another material or as their back: an edge of four faces collapses to no form
-  /// that both have, so that it would stay while all else of the group goes.
-  MeshGroup without_coats(const MeshGroup& alike) {
+  /// Which of some primitives lie on others, in another material or as their back: an edge of four faces collapses to
+  /// no form that both have, so that it would stay while all else of the group goes.
+  std::vector<bool> coats(const Places& places, const MeshGroup& alike) const {
     constexpr size_t few = 50;  // one face in so many may be a decal's
-    const std::vector<size_t> repeated = Places(scene_, alike).repeated();
-    MeshGroup left;
+    const std::vector<size_t> repeated = places.repeated();
+    std::vector<bool> found;
     for (size_t i = 0; i < alike.size(); i++)
-      if (few * repeated[i] > scene_.primitives[static_cast<size_t>(alike[i])].mesh.faces.size())
-        groups_.push_back({alike[i]});
-      else
-        left.push_back(alike[i]);
-    return left;
+      found.push_back(few * repeated[i] > scene_.primitives[static_cast<size_t>(alike[i])].mesh.faces.size());
+    return found;
   }
 
   size_t vertices_of(const MeshGroup& group) const {

@@ -9,8 +9,8 @@
 #include "lightwell/mesh/base_places.h"
 #include "lightwell/mesh/progressive.h"
 #include "lightwell/mesh/stream.h"
-#include "tests/mesh/level.h"
 #include "tests/mesh/shapes.h"
+#include "tests/mesh/streams.h"
 
 namespace lightwell {
 namespace {
@@ -67,23 +67,8 @@ Regions cut_at_random(const Mesh& whole, uint16_t count, uint64_t seed) {
   return cut(whole, count, [&](uint32_t f) { return regions[f]; });
 }
 
-struct Stream {
-  ProgressiveMesh progressive;
-  EncodedMesh encoded;
-};
-
 Stream stream_of(const Regions& regions, uint32_t base_vertices = 4, uint32_t block_vertices = 20) {
-  auto progressive = build_progressive(regions.mesh, {regions.options(), base_vertices}, silent);
-  EXPECT_TRUE(progressive);
-  EncodedMesh encoded = encode(*progressive, block_vertices);
-  return {std::move(*progressive), std::move(encoded)};
-}
-
-MeshDecoder open(const EncodedMesh& encoded) {
-  const OpenedBase base(encoded.base);
-  auto decoder = MeshDecoder::open(encoded.layout, base.arrays(), stream_bytes(encoded));
-  EXPECT_TRUE(decoder) << decoder.error().message();
-  return std::move(*decoder);
+  return stream_of(regions.mesh, SimplifyOptions{regions.options(), base_vertices}, block_vertices);
 }
 
 /// What a region of a decoder shows.

@@ -6,33 +6,16 @@
 #include <map>
 
 #include "lightwell/mesh/split_coder.h"
-#include "tests/mesh/level.h"
 #include "tests/mesh/shapes.h"
+#include "tests/mesh/streams.h"
 
 namespace lightwell {
 namespace {
 
 Progress silent;
 
-struct Stream {
-  ProgressiveMesh progressive;
-  EncodedMesh encoded;
-};
-
 Stream stream_of(const Mesh& mesh, uint32_t base_vertices = 4, uint32_t block_vertices = 20) {
-  SimplifyOptions options;
-  options.base_vertices = base_vertices;
-  auto progressive = build_progressive(mesh, options, silent);
-  EXPECT_TRUE(progressive);
-  EncodedMesh encoded = encode(*progressive, block_vertices);
-  return {std::move(*progressive), std::move(encoded)};
-}
-
-MeshDecoder open(const EncodedMesh& encoded) {
-  const OpenedBase base(encoded.base);
-  auto decoder = MeshDecoder::open(encoded.layout, base.arrays(), stream_bytes(encoded));
-  EXPECT_TRUE(decoder) << decoder.error().message();
-  return std::move(*decoder);
+  return stream_of(mesh, SimplifyOptions{{}, base_vertices}, block_vertices);
 }
 
 Mesh without_normals(Mesh mesh) {
