@@ -10,7 +10,7 @@
 //   colour: radiance, or intensity; range, 0 without end; of a sky that of its shadows
 //   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
 //   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
-//   normal; number of its share, of a sky that of red, before those of green and blue
+//   normal; number of its share, of a sky that of red, before those of green and blue, and those that its grid has of each
 // Above row 0 the shares, one for every pixel of the viewport or for a few: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
 // beyond six beside it, again and again.
 
@@ -69,15 +69,17 @@ ivec2 getPlaceOfShares( sampler2D map, float distance ) {
 
 }
 
-// What the sky gives a fragment, as a lamp: by what its light is multiplied on the way, the irradiance, and what comes from where it mirrors.
+// What the sky gives a fragment, as a lamp: by what its light is multiplied on the way, which share of it surfaces hide that its grid knows nothing of, the
+// irradiance, and what comes from where it mirrors.
 struct SkyLight {
 	bool lit;
 	vec3 share;
+	vec3 hidden;
 	vec3 irradiance;
 	vec3 mirrored;
 };
 
-SkyLight skyLight = SkyLight( false, vec3( 1.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+SkyLight skyLight = SkyLight( false, vec3( 1.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
 
 // The irradiance of the sky where nothing hides it.
 vec3 getSkyIrradiance( sampler2D map, vec3 normal ) {

@@ -19,7 +19,13 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 			vec3 mirrored = reflect( - geometryViewDir, geometryNormal );
 			skyLight.lit = true;
 			skyLight.share = lamp.color;
-			if ( shadowed ) for ( int c = 0; c < 3; c ++ ) skyLight.share[ c ] *= getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
+			if ( shadowed ) for ( int c = 0; c < 3; c ++ ) {
+
+				float share = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
+				skyLight.share[ c ] *= share;
+				skyLight.hidden[ c ] = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + 3 + c ) - share;
+
+			}
 			skyLight.irradiance = skyLight.share * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], geometryNormal );
 			skyLight.mirrored = skyLight.share * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], mirrored ) * RECIPROCAL_PI;
 			continue;

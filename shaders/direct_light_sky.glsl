@@ -12,6 +12,14 @@
 			irradiance += skyLight.irradiance;
 			iblIrradiance = vec3( 0.0 );
 
+			// Of what hides the sky within a cell the grid of reflected light knows nothing: it is as bright as the fragment (lightwell/render/folds.h).
+			#ifdef STANDARD
+				vec3 albedo = material.diffuseContribution;
+			#else
+				vec3 albedo = material.diffuseColor;
+			#endif
+			irradiance = max( skyLight.irradiance, irradiance / ( 1.0 - min( albedo * skyLight.hidden, 0.95 ) ) );
+
 		#endif
 
 		#if defined( RE_IndirectSpecular )

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A full-screen pass: adds one sample of a lamp, a point of it, to the two sums of every pixel: the weight w that the point would have
-// unoccluded, and w where it is seen. The sums' ratio is the share of the lamp that reaches the pixel.
+// unoccluded, and w where it is seen. The sums' ratio is the share of the lamp that reaches the pixel. Comes behind seen_surface.glsl.
 
-precision highp float;
-precision highp sampler2D;
-
-uniform sampler2D surfaces;     // octahedral geometric normal, distance along the view: 0 where nothing is
 uniform sampler2D sums;         // so far
 uniform sampler2D depths;       // of the map: 3 x 2 faces of a cube, or one picture for a sun
 uniform bool first;             // whether the sums begin here
 uniform float strength;         // of this sample beside the others
-uniform mat4 projection;
 uniform mat3 axes;              // rows: the map's axes in the camera's space, the last one to its front
 uniform vec3 point;             // of the lamp, in the camera's space; of a sun the middle of the map
 uniform vec3 normal;            // of the lamp's surface there; 0 where it shines evenly to all sides
@@ -23,23 +18,6 @@ out vec4 result;
 
 // Of the depth picture's own values, which reach from 0 to 1.
 const float SLACK = 3e-6;
-
-vec3 unpackNormal( vec2 packed ) {
-
-	vec3 n = vec3( packed, 1.0 - abs( packed.x ) - abs( packed.y ) );
-	if ( n.z < 0.0 ) n.xy = ( 1.0 - abs( n.yx ) ) * vec2( n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0 );
-	return normalize( n );
-
-}
-
-vec3 positionOf( float distance ) {
-
-	vec2 at = 2.0 * gl_FragCoord.xy / vec2( textureSize( surfaces, 0 ) ) - 1.0;
-	float w = projection[ 3 ][ 3 ] - projection[ 2 ][ 3 ] * distance;
-	vec2 xy = at * w + vec2( projection[ 2 ].xy ) * distance - projection[ 3 ].xy;
-	return vec3( xy / vec2( projection[ 0 ][ 0 ], projection[ 1 ][ 1 ] ), - distance );
-
-}
 
 // A receiver as the map sees it.
 struct Receiver {

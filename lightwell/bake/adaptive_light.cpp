@@ -17,6 +17,10 @@ using Clock = std::chrono::steady_clock;
 /// Rounds of dividing, each by what the one before has left; and the finest level.
 constexpr int rounds = 6;
 constexpr int finest_level = 3;
+/// Where this many rounds are over, what errs by more than so often the target will not come to it with three times the
+/// bytes (docs/decisions/041-the-sky-as-a-lamp.md).
+constexpr int rounds_of_promise = 2;
+constexpr float most_of_promise = 2;
 /// What a brick adds to the stream, bytes, until it is known of this grid.
 constexpr size_t likely_brick_bytes = 300;
 /// Sets of rays from a node of a brick: fewer than from the grid's own, since what is left of the noise is told from
@@ -338,10 +342,12 @@ Result<Refined> AdaptiveLight::refine(const TestPoints& points, const TestPoints
   Refinement end = Refinement::to_budget;
   for (int round = 1;; round++) {
     const LightGrid grid = best_grid(points, rule);
-    if (judge.error(grid) <= options.target_error) {
+    const float error = judge.error(grid);
+    if (error <= options.target_error) {
       end = Refinement::to_target;
       break;
     }
+    if (options.must_reach && round > rounds_of_promise && error > most_of_promise * options.target_error) break;
     if (Clock::now() >= options.deadline) {
       end = Refinement::to_deadline;
       break;

@@ -27,6 +27,8 @@ struct RefinementOptions {
   size_t most_bytes = 0;   ///< of its stream
   NodeRule rule{};
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
+  /// Whether a grid that errs by more is of no use: as soon as that is likely its cells are divided no further.
+  bool must_reach = false;
 };
 
 /// Why an adaptive grid was divided no further.

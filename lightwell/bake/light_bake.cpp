@@ -40,7 +40,7 @@ Clock::time_point deadline_of(Clock::time_point end, int again, Extent extent) {
 LightBakeOptions of_divided(const LightBakeOptions& options, const World& world, Extent extent) {
   LightBakeOptions divided = options;
   const int sky = world.lights().environment_luminaire();
-  if (!options.sky_apart || !options.estimator.contained.contains(sky)) return divided;
+  if (options.sky_apart != SkyApart::always || !options.estimator.contained.contains(sky)) return divided;
   divided.most_bytes /= 2;
   if (extent == Extent::surroundings) return divided;
   divided.estimator.contained.erase(sky);
@@ -108,7 +108,7 @@ Result<std::vector<BakedGrid>> light_by_parts(const Place& place, const CoarseLi
                                               const LightBakeOptions& options, bool beside, Progress& progress,
                                               uint64_t& rays) {
   const std::vector<LightPart> parts =
-      light_parts(place.world, options.estimator.contained, options.groups, options.sky_apart);
+      light_parts(place.world, options.estimator.contained, options.groups, options.sky_apart == SkyApart::always);
   std::vector<BakedGrid> grids;
   const bool is_a_part = options.groups.size() <= 1 && (beside || parts.size() == 1);
   for (const LightPart& part : parts) {
@@ -161,7 +161,7 @@ Result<TestPoints> judges(const CoarseLight& coarse, const Effort& effort, Progr
 
 /// Divides the cells of the coarse grid until `judge` is content.
 Result<void> refine(CoarseLight& coarse, const TestPoints& judge, const LightBakeOptions& options, const Effort& effort,
-                    Progress& progress, LightBakeStatistics& statistics) {
+                    bool must_reach, Progress& progress, LightBakeStatistics& statistics) {
   // Points of their own: what the grid was fitted to would tell nothing of its error.
   TestPointOptions fitting = coarse.testing();
   fitting.surface_points = static_cast<size_t>(scaled(16'000, std::sqrt(effort.rays)));
@@ -173,7 +173,8 @@ Result<void> refine(CoarseLight& coarse, const TestPoints& judge, const LightBak
   AdaptiveLight& nodes = coarse.nodes();
   const uint64_t before = nodes.rays();
   const size_t unrefined = nodes.count();
-  const RefinementOptions refinement{options.target_error, effort.most_bytes, coarse.best().rule(), effort.deadline};
+  const RefinementOptions refinement{options.target_error, effort.most_bytes, coarse.best().rule(), effort.deadline,
+                                     must_reach};
   LW_TRY(refined, nodes.refine(fit, judge, refinement, progress));
   statistics.rays += nodes.rays() - before;
   // Its stream is within the bytes by this rule, and they are to pay.
@@ -185,14 +186,17 @@ Result<void> refine(CoarseLight& coarse, const TestPoints& judge, const LightBak
   return {};
 }
 
-/// Bakes the grids over a box; adds to the statistics.
+/// Bakes the grids over a box; adds to the statistics. None where they are to hold the sky's light only as far as they
+/// come to the target with it (SkyApart::as_needed), and do not.
 Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions options, const LightBakeOptions& divided,
                                         Effort effort, Progress& progress, LightBakeStatistics& statistics) {
   LW_TRY(coarse, affordable_light(place, divided, effort, progress, statistics.rays));
   options.estimator.effort = effort.rays;
   statistics.rays += coarse->rays();
   LW_TRY(judge, judges(*coarse, effort, progress));
-  if (effort.adaptive) LW_CHECK(refine(*coarse, judge, options, effort, progress, statistics));
+  const bool must_reach = options.sky_apart == SkyApart::as_needed;
+  if (effort.adaptive) LW_CHECK(refine(*coarse, judge, options, effort, must_reach, progress, statistics));
+  if (must_reach && statistics.refinement != Refinement::to_target) return std::vector<BakedGrid>();
   statistics.nodes += coarse->best().nodes();
   LightGrid all = coarse->best().take();
   LW_TRY(grids,
@@ -204,6 +208,39 @@ Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions opt
   }
   statistics.invalid_nodes += static_cast<size_t>(std::count(all.valid.begin(), all.valid.end(), 0));
   return grids;
+}
+
+/// Bakes the grids of a scene, over what it is about and, where that is not all, over the rest; none as bake_box().
+Result<std::vector<BakedGrid>> bake_boxes(const World& world, const FreeSpace& space, const LightBakeOptions& options,
+                                          Clock::time_point start, Progress& progress,
+                                          LightBakeStatistics& statistics) {
+  std::vector<Box3f> boxes{world.surfaces().focus()};
+  if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
+  const int again = gathered_again(
+      light_parts(world, options.estimator.contained, options.groups, options.sky_apart == SkyApart::always), options);
+  std::vector<BakedGrid> grids;
+  for (const Box3f& box : boxes) {
+    const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
+    LightBakeOptions of_box = options;
+    // What it is about decides.
+    if (extent == Extent::surroundings && options.sky_apart == SkyApart::as_needed) of_box.sky_apart = SkyApart::never;
+    const LightBakeOptions divided = of_divided(of_box, world, extent);
+    const Effort effort = effort_of(divided, start, again, extent);
+    LW_TRY(baked, bake_box({world, space, box}, of_box, divided, effort, progress, statistics));
+    if (baked.empty()) return baked;
+    for (BakedGrid& grid : baked) {
+      grid.priority = static_cast<int>(&boxes.back() - &box);
+      grids.push_back(std::move(grid));
+    }
+  }
+  return grids;
+}
+
+/// Whether the sky's light is to be in grids of its own, as far as that is known beforehand.
+SkyApart sky_apart(const World& world, const LightBakeOptions& options) {
+  const bool has_target = options.nodes == 0 && !options.draft && !std::isfinite(options.seconds);
+  if (!options.estimator.contained.contains(world.lights().environment_luminaire())) return SkyApart::never;
+  return options.sky_apart == SkyApart::as_needed && !has_target ? SkyApart::never : options.sky_apart;
 }
 
 }  // namespace
@@ -231,20 +268,16 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   survey.most_photons = std::min(survey.most_photons, options.estimator.photons);
   LW_TRY(space, FreeSpace::survey(world, survey, progress));
 
-  std::vector<Box3f> boxes{world.surfaces().focus()};
-  if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
-  const int again =
-      gathered_again(light_parts(world, options.estimator.contained, options.groups, options.sky_apart), options);
-  std::vector<BakedGrid> grids;
-  for (const Box3f& box : boxes) {
-    const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
-    const LightBakeOptions divided = of_divided(options, world, extent);
-    const Effort effort = effort_of(divided, start, again, extent);
-    LW_TRY(baked, bake_box({world, space, box}, options, divided, effort, progress, statistics));
-    for (BakedGrid& grid : baked) {
-      grid.priority = static_cast<int>(&boxes.back() - &box);
-      grids.push_back(std::move(grid));
-    }
+  LightBakeOptions chosen = options;
+  chosen.sky_apart = sky_apart(world, options);
+  LW_TRY(grids, bake_boxes(world, space, chosen, start, progress, statistics));
+  if (grids.empty()) {
+    chosen.sky_apart = SkyApart::always;
+    const uint64_t rays = statistics.rays;
+    statistics = {};
+    statistics.rays = rays;
+    LW_TRY(apart, bake_boxes(world, space, chosen, start, progress, statistics));
+    grids = std::move(apart);
   }
   statistics.estimated_error = grids.front().estimated_error;
   statistics.estimate = grids.front().estimate;

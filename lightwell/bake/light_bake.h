@@ -13,6 +13,12 @@
 
 namespace lightwell {
 
+/// Whether the environment's own light has grids of its own, apart from what surfaces reflect, beside which a client
+/// finds that light more finely. `as_needed`: where one grid of all light, whose cells blur the shadows of small
+/// things, would not come to the target within its bytes. A regular grid, a draft and one whose time is limited then
+/// hold it.
+enum class SkyApart { never, as_needed, always };
+
 struct LightBakeOptions {
   /// On the longest axis of a regular grid, at least 2; 0 for an adaptive grid, with bricks where the light changes
   /// quickly, which takes a method that goes node by node.
@@ -28,8 +34,8 @@ struct LightBakeOptions {
   const EstimatorKind* method = &estimators().front();
   /// Groups of luminaires of which each is to have grids of its own; of one or none all light is in the same ones.
   std::span<const LightGroup> groups{};
-  /// Whether the environment's own light, which `contained` holds, has grids of its own apart from what is reflected.
-  bool sky_apart = false;
+  /// Of an environment whose own light `contained` holds.
+  SkyApart sky_apart = SkyApart::never;
   /// Luminaires whose straight light is shown beside the grid's: it is no part of the grid, but of what its error is a
   /// share of.
   LuminaireSet beside{};

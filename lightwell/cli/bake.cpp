@@ -28,7 +28,8 @@ struct Options {
   std::optional<double> target_error;  // percent
   uint64_t budget = 0;                 // bytes; 0: not said
   std::optional<double> stop_after;    // seconds
-  bool preview = false, resume = false, sky_apart = false;
+  bool preview = false, resume = false;
+  SkyApart sky_apart = SkyApart::as_needed;
 };
 
 /// What --preview stands for: enough to see whether a scene comes out right.
@@ -334,9 +335,11 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
   add_number(*command, "--stop-after", options->stop_after, {0, 1e9},
              "Of --grid auto: about so many seconds the light may take; what there is then, is written");
   command->add_flag("--preview", options->preview, "A first light in seconds: fewer rays, and --stop-after 2");
-  command->add_flag(
-      "--sky-apart", options->sky_apart,
-      "Keep the sky's own light in a grid apart from what surfaces reflect: the page then refines its shadows");
+  add_choice<SkyApart>(
+      *command, "--sky-apart", options->sky_apart,
+      {{"auto", SkyApart::as_needed}, {"always", SkyApart::always}, {"never", SkyApart::never}},
+      "Keep the sky's own light in a grid apart from what surfaces reflect: the page then refines its shadows. auto: "
+      "where one grid would not reach --target-error within --budget");
   command->add_flag("--resume", options->resume,
                     "Keep the light of each node in PACK.journal, and go on with what an interrupted run left there");
   command->footer(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/cli/light_source.h"
 
+#include <algorithm>
+
 #include "lightwell/bake/contained.h"
 
 namespace lightwell {
@@ -31,15 +33,17 @@ Result<void> check_environment(const OpenedScene& scene) {
       "", "its light was baked without an environment: bake the scene with one, or leave --environment and --sky out");
 }
 
-void leave_sky_to_rays(const World& world, LightField& field, LuminaireSet& held) {
+LightField leave_sky_to_rays(const World& world, LightField& field, LuminaireSet& held) {
   const int sky = world.lights().environment_luminaire();
   std::vector<LightField::Layer> layers = field.layers();
-  const auto is_sky_alone = [](const LightField::Layer& layer) {
-    return layer.contents.environment && !layer.contents.indirect;
-  };
-  if (sky < 0 || std::erase_if(layers, is_sky_alone) == 0) return;
+  const auto of_sky = std::ranges::stable_partition(
+      layers, [](const LightField::Layer& layer) { return layer.contents.indirect || !layer.contents.environment; });
+  if (sky < 0 || of_sky.empty()) return {};
   held.erase(sky);
+  LightField left_out(std::vector<LightField::Layer>(of_sky.begin(), of_sky.end()));
+  layers.erase(of_sky.begin(), of_sky.end());
   field = LightField(std::move(layers));
+  return left_out;
 }
 
 Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& options, const World& world,

@@ -19,8 +19,8 @@ Result<void> check_environment(const OpenedScene& scene);
 Result<LightField> light_of_pack(const OpenedPack& pack, const LightLevel& level);
 
 /// Leaves the sky's own light out of a field that has it apart, and out of the luminaires that it holds: for who finds
-/// it by rays, which know the shadows that are smaller than the field's cells.
-void leave_sky_to_rays(const World& world, LightField& field, LuminaireSet& held);
+/// it by rays, which know the shadows that are smaller than the field's cells. Gives what was left out.
+LightField leave_sky_to_rays(const World& world, LightField& field, LuminaireSet& held);
 
 /// The baked light of a scene: the grids of its pack at a level or, without a pack, one grid baked with `options`,
 /// including the direct light of the `contained` luminaires, for each of the groups.

@@ -75,7 +75,7 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
   LW_TRY(groups, groups_of(opened, options.scene, *world));
   LW_TRY(factors, luminaire_factors(options.factors, groups));
   render_options.light.factors = factors;
-  LightField field;
+  LightField field, sky;
   Display display = options.display;
   const bool chooses_exposure = !options.exposure && is_for_the_eye(options.output);
   if (needs_field || chooses_exposure) {
@@ -95,7 +95,8 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
     // After the exposure was chosen: what is dimmed is to look darker.
     field = dimmed(field, options.factors);
     render_options.light.held = held;
-    leave_sky_to_rays(*world, field, render_options.light.held);
+    sky = leave_sky_to_rays(*world, field, render_options.light.held);
+    if (!sky.empty()) render_options.light.sky = &sky;
     render_options.light.field = &field;
   }
   if (is_for_the_eye(options.output)) render_options.display = display;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/render/grid_integrator.h"
 
+#include "lightwell/render/folds.h"
+
 namespace lightwell {
 namespace {
 
@@ -17,7 +19,8 @@ class GridIntegrator : public Integrator {
     if (!samples()) return {};
     DirectAndIndirect light(not_direct_, options_.factors);
     const int rays = trace_path(world_, receiver, 0, random, light);
-    return {light.direct, rays};
+    if (options_.sky == nullptr || !wants_indirect(options_.part)) return {light.direct, rays};
+    return {light.direct + reflected_in_folds(receiver, random), rays + sky_rays};
   }
 
   Vec3f known(const Receiver& receiver) const override {
@@ -25,6 +28,53 @@ class GridIntegrator : public Integrator {
   }
 
  private:
+  /// By which the share of the sky that is seen is found.
+  static constexpr int sky_rays = 8;
+
+  /// What the surfaces within a cell reflect onto one another beyond what the grids know, since rays, not grids, find
+  /// the sky's light.
+  Vec3f reflected_in_folds(const Receiver& receiver, Random& random) const {
+    const Shading& shading = receiver.shading;
+    const Vec3f& normal = shading.shading_normal;
+    const Vec3f albedo = shading.bsdf.albedo(dot(normal, shading.out)).diffuse;
+    if (max_component(albedo) <= 0) return {};
+    const SkyLight sky = sky_light(receiver, random);
+    const Vec3f in_cells = options_.sky->irradiance(receiver.position, normal, normal);
+    const Vec3f reflected = options_.field->irradiance(receiver.position, normal, normal);
+    const Vec3f share_in_cells = share_of(in_cells, sky.open), share = share_of(sky.seen, sky.open);
+    const Vec3f all = irradiance_in_folds(albedo, sky.seen, reflected, share_in_cells, share);
+    return albedo * (all - sky.seen - reflected) / pi;
+  }
+
+  /// Irradiance of the sky where nothing would hide it, and where it is seen.
+  struct SkyLight {
+    Vec3f open{}, seen{};
+  };
+  SkyLight sky_light(const Receiver& receiver, Random& random) const {
+    const Shading& shading = receiver.shading;
+    const float dimmed = pi / static_cast<float>(sky_rays);
+    const Vec3f scale = options_.factors.of(world_.lights().environment_luminaire()) * dimmed;
+    const Frame frame(shading.shading_normal);
+    const float u = random.uniform(), v = random.uniform();
+    SkyLight light;
+    for (size_t i = 0; i < sky_rays; i++) {
+      const Vec3f direction = frame.to_world(cosine_direction(i, sky_rays, u, v));
+      const Vec3f radiance = scale * world_.lights().environment().radiance(direction);
+      light.open += radiance;
+      if (dot(direction, shading.normal) <= 0) continue;
+      const Arrival arrival{.direction = direction, .distance = std::numeric_limits<float>::infinity()};
+      light.seen += radiance * visibility(world_.surfaces(), receiver.position, shading.normal, arrival, random);
+    }
+    return light;
+  }
+
+  static Vec3f share_of(const Vec3f& light, const Vec3f& all) {
+    Vec3f share = Vec3f::filled(1);
+    for (size_t c = 0; c < 3; c++)
+      if (all[c] > 0) share[c] = light[c] / all[c];
+    return share;
+  }
+
   const World& world_;
   const IntegratorOptions& options_;
   LuminaireSet not_direct_;

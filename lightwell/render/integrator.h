@@ -36,6 +36,8 @@ struct IntegratorOptions {
   /// The baked light, for integrators that look it up, and the luminaires whose direct light it holds, which then
   /// counts as indirect.
   const LightField* field = nullptr;
+  /// The sky's own light as a field had it that `field` was parted from (leave_sky_to_rays), if it was.
+  const LightField* sky = nullptr;
   LuminaireSet held{};
   /// Luminaires whose direct light is left out. Their bounced light stays.
   LuminaireSet left_out{};

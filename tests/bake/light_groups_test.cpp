@@ -24,9 +24,11 @@ Scene three_lights() {
   return scene;
 }
 
-std::vector<BakedGrid> bake(const World& world, int nodes, std::span<const LightGroup> groups, bool sky_apart = false) {
+std::vector<BakedGrid> bake(const World& world, int nodes, std::span<const LightGroup> groups,
+                            SkyApart sky_apart = SkyApart::never, float target_error = 0.01f) {
   LightBakeOptions options;
   options.sky_apart = sky_apart;
+  options.target_error = target_error;
   options.nodes = nodes;
   options.most_bytes = 12'000;
   options.groups = groups;
@@ -142,7 +144,7 @@ TEST(LightParts, TheSkysOwnLightIsWhatComesStraight) {
   Scene scene = scene_of(ground, lambertian(0.5f));
   scene.environment.radiance = {{1, 2, 3}};
   const auto world = world_of(scene);
-  const std::vector<BakedGrid> grids = bake(*world, 5, {}, true);
+  const std::vector<BakedGrid> grids = bake(*world, 5, {}, SkyApart::always);
   ASSERT_GE(grids.size(), 2u);
   const LightGrid &reflected = grids[0].grid, &sky = grids[1].grid;
   EXPECT_TRUE(grids[0].contains.indirect && !grids[1].contains.indirect);
@@ -160,19 +162,39 @@ TEST(LightParts, TheSkysOwnLightIsWhatComesStraight) {
 // Dark posts on a dark floor: next to all light comes straight from the sky, with edges at the posts' feet that no grid
 // of 12,000 bytes holds, and what is reflected is a small part of it. Both grids have the same nodes, each half of the
 // bytes.
-TEST(LightParts, WithTheSkyApartCellsAreDividedByWhatIsReflected) {
+Scene posts_on_a_floor() {
   Mesh floor = block({{0, -1, 0}}, {{8, 0, 8}});
   for (const float x : {1.0f, 3.0f, 5.0f})
     for (const float z : {2.0f, 4.0f, 6.0f}) append(floor, block({{x, 0, z}}, {{x + 0.4f, 1.5f, z + 0.4f}}));
   Scene scene = scene_of(floor, lambertian(0.1f));
   scene.environment.radiance = Vec3f::filled(1);
+  return scene;
+}
+
+TEST(LightParts, WithTheSkyApartCellsAreDividedByWhatIsReflected) {
+  const Scene scene = posts_on_a_floor();
   const auto world = world_of(scene);
-  const std::vector<BakedGrid> together = bake(*world, 0, {}), apart = bake(*world, 0, {}, true);
+  const std::vector<BakedGrid> together = bake(*world, 0, {}), apart = bake(*world, 0, {}, SkyApart::always);
   ASSERT_EQ(together.size(), 1u);
   ASSERT_EQ(apart.size(), 2u);
   EXPECT_EQ(apart[0].grid.moments.size(), apart[1].grid.moments.size());
   EXPECT_LE(apart[0].grid.tree.bricks().size(), together[0].grid.tree.bricks().size());
   EXPECT_LT(apart[0].estimated_error, 0.6f * together[0].estimated_error);
+}
+
+TEST(LightParts, TheSkyIsApartWhereOneGridWouldMissTheTarget) {
+  const Scene scene = posts_on_a_floor();
+  const auto world = world_of(scene);
+  const auto count = [&](int nodes, float target) {
+    return bake(*world, nodes, {}, SkyApart::as_needed, target).size();
+  };
+  EXPECT_EQ(count(0, 0.01f), 2u);
+  EXPECT_EQ(count(0, 2.0f), 1u) << "any grid reaches an error of 200 %";
+  EXPECT_EQ(count(5, 0.01f), 1u) << "a regular grid has no target";
+  Scene dark = posts_on_a_floor();
+  dark.environment.radiance = {};
+  dark.lamps = {point_lamp({{4, 4, 4}}, {{10, 10, 10}})};
+  EXPECT_EQ(bake(*world_of(dark), 0, {}, SkyApart::as_needed).size(), 1u) << "without a sky";
 }
 
 TEST(LightGroups, OneGroupChangesNothing) {

@@ -44,7 +44,7 @@ TEST_F(LightOptions, AnUnknownRecordIsNamed) {
 TEST_F(LightOptions, TheSkyApartAddsUpToTheWhole) {
   const std::string sky = "--environment 0.5,1,2 --record floats";
   const std::vector<double> whole = light_of(small_pack(sky));
-  const std::string pack = small_pack(sky + " --sky-apart");
+  const std::string pack = small_pack(sky + " --sky-apart always");
   EXPECT_EQ(run("verify " + pack).status, 0);
   const json info = json::parse(run("info --json " + pack).out);
   ASSERT_EQ(info["grids"].size(), 2u);

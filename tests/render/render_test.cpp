@@ -180,6 +180,54 @@ TEST(Render, LooksUpMetalsAtTheSamePlaceFromEverywhere) {
     EXPECT_NEAR(reflected_from_field(field, metal_floor(out))[0], reflectance(metal_floor(out)) * 10.5f / pi, 1e-3f);
 }
 
+// An integrating sphere: a ball whose inside reflects a share `albedo`, with a hole that is a part `open` of it, under
+// a uniform sky. Every place of the inside gets open pi straight from the sky and, with what goes to and fro, open pi /
+// (1 - albedo (1 - open)). The grids know of no ball: the sky is whole in them, and nothing is reflected.
+TEST(Render, FindsWhatIsReflectedInFoldsThatTheGridDoesNotKnow) {
+  Mesh ball = sphere(1, 5);
+  const auto area = [&] {
+    double sum = 0;
+    for (const Face& face : ball.faces) {
+      const Vec3f &a = ball.positions[face[0]], &b = ball.positions[face[1]], &c = ball.positions[face[2]];
+      sum += static_cast<double>(length(cross(b - a, c - a)));
+    }
+    return sum;
+  };
+  const double all = area();
+  std::erase_if(ball.faces, [&](const Face& face) {
+    return std::ranges::all_of(face, [&](uint32_t corner) { return ball.positions[corner][1] > 0.3f; });
+  });
+  // A part of a ball takes as much of each place's hemisphere, by cosine, as of the ball's surface.
+  const double open = 1 - area() / all;
+  for (const float albedo : {0.2f, 0.5f, 0.8f}) {
+    Scene scene = scene_of(ball, lambertian(albedo));
+    scene.environment.radiance = Vec3f::filled(1);
+    const auto world = world_of(scene);
+    const LightField reflected({{uniform_grid(0), {}, 0}}), sky({{uniform_grid(pi), {}, 0}});
+    IntegratorOptions options{.field = &reflected, .sky = &sky};
+    const auto grid = find_integrator("ivg").make(*world, options);
+    const Vec3f up{{0, 1, 0}};
+    const Receiver floor{
+        .position = {{0, -0.999f, 0}},
+        .shading = {.bsdf = Bsdf::lambertian(Vec3f::filled(albedo)), .normal = up, .shading_normal = up, .out = up}};
+    const auto mean_of = [&](const Integrator& integrator) {
+      Random random(1, 2);
+      double sum = 0;
+      constexpr int samples = 20'000;
+      for (int i = 0; i < samples; i++) {
+        const ReflectedLight light = integrator.sample(floor, random);
+        sum += static_cast<double>((light.radiance + integrator.known(floor))[0]) / samples;
+      }
+      return sum;
+    };
+    const double whole = static_cast<double>(albedo) * open / (1 - static_cast<double>(albedo) * (1 - open));
+    const auto path = find_integrator("path").make(*world, options);
+    EXPECT_NEAR(mean_of(*path), whole, 0.03 * whole) << albedo;
+    // Eight rays a sample leave a little of their noise in a quotient.
+    EXPECT_NEAR(mean_of(*grid), whole, 0.04 * whole) << albedo;
+  }
+}
+
 TEST(Render, ShowsTheEnvironmentOnlyInTheTotal) {
   Scene scene = scene_of(quad({{50, 50, 50}}, {{1, 0, 0}}, {{0, 1, 0}}), lambertian(0.5f));
   scene.environment.radiance = {{1, 2, 3}};

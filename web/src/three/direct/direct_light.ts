@@ -23,6 +23,7 @@ import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
 import { ScreenShares } from './screen_shares.js';
 import { ShadowMap } from './shadow_map.js';
+import { SkyInGrids } from './sky_in_grids.js';
 import { SkyLamp, type SkyOfPack } from './sky_lamp.js';
 import { signatureOf, Surfaces } from './surfaces.js';
 
@@ -89,6 +90,7 @@ export class DirectLight {
   readonly #task: FrameTask;
   readonly #floats: boolean;
   readonly #sky: SkyLamp;
+  readonly #skyInGrids: SkyInGrids;
   #kind: Shadows = 'soft';
   #root: Object3D | null = null;
   /** Of the present view, whose surfaces are drawn when somebody asks for them. */
@@ -116,8 +118,9 @@ export class DirectLight {
     this.#surfaces = new Surfaces(renderer);
     const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
     this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
-    // Each colour of the sky, the last lamp, has a share of its own.
-    this.#shares = new ScreenShares(this.lamps.length + (this.lamps.some(isSky) ? 2 : 0), width);
+    // Each colour of the sky, the last lamp, has a share of its own, and one that its grids have.
+    this.#shares = new ScreenShares(this.lamps.length + (this.lamps.some(isSky) ? 5 : 0), width);
+    this.#skyInGrids = new SkyInGrids(this.#shares.screen);
     const size = definitions.length > FEW_LAMPS ? 2 : 1;
     this.#shadows = this.lamps.map((lamp) => {
       const middle = new ShadowMap(hasPicture(lamp), sizeOf(lamp) / size);
@@ -189,7 +192,7 @@ export class DirectLight {
     for (const { middle } of this.#shadows) middle.dispose();
     for (const map of this.#scratch.values()) map.dispose();
     const { geometry, material } = this.hook;
-    for (const part of [this.#surfaces, this.#shares, this.#table, this.carrier, geometry, material]) part.dispose();
+    for (const part of [this.#surfaces, this.#shares, this.#skyInGrids, this.#table, this.carrier, geometry, material]) part.dispose();
   }
 
   /** Those whose light is seen; the sky is a lamp only where it has soft shadows. */
@@ -218,7 +221,7 @@ export class DirectLight {
       this.#drawing = true;
       aside(renderer, () => {
         if (shadowed) this.#look(camera, shining, viewport);
-        const shown = shining.filter(({ lamp, count }) => !isSky(lamp) || (shadowed && count >= POINTS_TO_SHOW_SKY));
+        const shown = shining.filter((shadow) => !isSky(shadow.lamp) || (shadowed && showsSky(shadow)));
         this.#sky.replaceInGrids(shown.some(({ lamp }) => isSky(lamp)));
         this.#writeTable(camera, shown, shadowed);
         this.#shares.showTable(renderer, this.#table);
@@ -242,12 +245,14 @@ export class DirectLight {
       for (const shadow of this.#shadows) shadow.count = -1;
       this.#surfacesStale = true;
       this.#seenStale = false;
+      this.#skyInGrids.forget();
     }
     for (const shadow of shining) {
       const form = placed(shadow.lamp);
       const now = formOf(form);
       if (isSky(shadow.lamp)) {
         const isNew = this.#sky.renew();
+        if (isNew) this.#skyInGrids.forget();
         if (shadow.form === null || isNew) this.#mapsTime = performance.now();
         if (shadow.form === null || isNew || shadow.count < 0) Object.assign(shadow, { form: now, count: 0 });
         this.#scratchMap(shadow.lamp);
@@ -265,10 +270,22 @@ export class DirectLight {
       shadow.count = 0;
       this.#showStale = true;
     }
+    const sky = shining.find((shadow) => isSky(shadow.lamp) && showsSky(shadow));
+    if (sky !== undefined && this.#drawSkyInGrids(camera, sky)) this.#showStale = true;
     if (this.#showStale) this.#shares.show(renderer);
     this.#showStale = false;
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
     else if (!this.#paused && this.samples < Infinity) this.#task.request();
+  }
+
+  /** Says whether it was not there. */
+  #drawSkyInGrids(camera: Camera, sky: Shadow): boolean {
+    const { color, intensity } = sky.lamp;
+    const factors = color.toArray().map((channel) => channel * intensity);
+    const irradiance = this.#sky.irradiance(camera.matrixWorldInverse).map((matrix, c) => matrix.multiplyScalar(factors[c]!));
+    this.#drawSurfaces();
+    const share = this.#shadows.indexOf(sky) + 3;
+    return this.#skyInGrids.draw(this.#surroundings.renderer, this.#shares, share, camera, this.#sky.replaced, irradiance);
   }
 
   /** What the present view shows, unless that is drawn. */
@@ -358,6 +375,9 @@ export class DirectLight {
 }
 
 const isSky = ({ definition }: Lamp) => definition.kind === 'sky';
+
+/** Whether the sky is shown as a lamp. */
+const showsSky = ({ count }: Shadow) => count >= POINTS_TO_SHOW_SKY;
 
 /** Whether its light comes from far away: its shadow is one picture, not a cube. */
 const hasPicture = ({ definition }: Lamp) => definition.kind === 'sun' || definition.kind === 'sky';

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { BufferGeometry, Camera, Matrix4, Object3D, Texture, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
+import seenSurface from '../../../../shaders/seen_surface.glsl';
 import lookupShader from '../../../../shaders/shadow_lookup.glsl';
 import sharesShader from '../../../../shaders/shadow_shares.glsl';
 import { createScreen, FullScreen } from './full_screen.js';
@@ -24,7 +25,7 @@ export class ScreenShares {
   readonly #sums: WebGLRenderTarget[];
   /** The sums are added up from one target into another, which then takes its place. */
   #spare: WebGLRenderTarget;
-  readonly #screen: BufferGeometry = createScreen();
+  readonly screen: BufferGeometry = createScreen();
   readonly #lookups = new Map<string, FullScreen>();
   readonly #shares: FullScreen;
   readonly #table: FullScreen;
@@ -46,8 +47,8 @@ export class ScreenShares {
     this.#sums = Array.from({ length: shares }, sum);
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
-    this.#shares = new FullScreen(this.#screen, sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
-    this.#table = new FullScreen(this.#screen, COPY, { table: { value: null } });
+    this.#shares = new FullScreen(this.screen, sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
+    this.#table = new FullScreen(this.screen, COPY, { table: { value: null } });
   }
 
   /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
@@ -116,6 +117,11 @@ export class ScreenShares {
     [this.#sums[share], this.#spare] = [this.#spare, this.#sums[share]!];
   }
 
+  /** Lets a pass that comes behind shaders/seen_surface.glsl write the sums of a share in their place, or a part of them. */
+  write(renderer: WebGLRenderer, share: number, pass: FullScreen, values: Record<string, unknown>): void {
+    pass.draw(renderer, this.#sums[share]!, { surfaces: this.#surfaces.texture, projection: this.#projection, ...values });
+  }
+
   /** Shows the shares as they are now. */
   show(renderer: WebGLRenderer): void {
     const { width, height } = this;
@@ -135,7 +141,7 @@ export class ScreenShares {
   dispose(): void {
     for (const pass of [this.#shares, this.#table, ...this.#lookups.values()]) pass.dispose();
     for (const target of [this.picture, this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
-    this.#screen.dispose();
+    this.screen.dispose();
   }
 
   #part(x: number, y: number, width: number, height: number): void {
@@ -148,7 +154,7 @@ export class ScreenShares {
     const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
     const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
-    const pass = this.#lookups.get(key) ?? new FullScreen(this.#screen, lookupShader, uniforms, defines);
+    const pass = this.#lookups.get(key) ?? new FullScreen(this.screen, seenSurface + lookupShader, uniforms, defines);
     this.#lookups.set(key, pass);
     return pass;
   }

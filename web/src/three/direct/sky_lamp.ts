@@ -40,11 +40,11 @@ export class SkyLamp {
 
   /** Whether one of the grids is seen in whose place it shines. */
   get replacesSomething(): boolean {
-    return this.#replaced.some(([grid]) => grid.visible);
+    return this.replaced.some(([grid]) => grid.visible);
   }
 
-  /** The grids that are shown, and those that may be in their place. */
-  get #replaced(): [LightwellLight, LightwellLight][] {
+  /** The grids that are shown, and those that may be in their place: of each pair the first, and the second. */
+  get replaced(): [LightwellLight, LightwellLight][] {
     const { grids } = this.of;
     return grids.flatMap((grid) =>
       grids.filter(({ definition }) => definition === grid.definition.insteadOf).map((other): [LightwellLight, LightwellLight] => [other, grid]),
@@ -63,7 +63,7 @@ export class SkyLamp {
 
   /** Lets the grids have its light, or not where it is shown as a lamp. */
   replaceInGrids(shown: boolean): void {
-    for (const [grid, other] of this.#replaced) grid.shown = shown ? other : grid;
+    for (const [grid, other] of this.replaced) grid.shown = shown ? other : grid;
   }
 
   /** Of a number from 0 on; after `renew`. */
@@ -74,9 +74,14 @@ export class SkyLamp {
   /** The texels of its irradiance in the table of shaders/direct_light.glsl, by normals in a camera's space; after `renew`. */
   texels(view: Matrix4): number[] {
     if (this.#sky === null) return new Array(4 * TEXELS_OF_SKY).fill(0);
+    return this.irradiance(view).flatMap((matrix) => matrix.toArray());
+  }
+
+  /** Of each colour the irradiance where nothing hides it, by normals in a camera's space (Sky); after `renew`. */
+  irradiance(view: Matrix4): Matrix4[] {
     const turn = new three.Matrix4().extractRotation(view).multiply(this.#turn());
     const back = turn.clone().transpose();
-    return this.#sky.irradiance.flatMap((matrix) => turn.clone().multiply(matrix).multiply(back).toArray());
+    return this.#sky!.irradiance.map((matrix) => turn.clone().multiply(matrix).multiply(back));
   }
 
   /** From the pack's axes into the world's. */

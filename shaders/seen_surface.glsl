@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a view shows at each pixel, for full-screen passes: to be put before them.
+
+precision highp float;
+precision highp sampler2D;
+
+uniform sampler2D surfaces;     // octahedral geometric normal, distance along the view: 0 where nothing is
+uniform mat4 projection;
+
+vec3 unpackNormal( vec2 packed ) {
+
+	vec3 n = vec3( packed, 1.0 - abs( packed.x ) - abs( packed.y ) );
+	if ( n.z < 0.0 ) n.xy = ( 1.0 - abs( n.yx ) ) * vec2( n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0 );
+	return normalize( n );
+
+}
+
+vec3 positionOf( float distance ) {
+
+	vec2 at = 2.0 * gl_FragCoord.xy / vec2( textureSize( surfaces, 0 ) ) - 1.0;
+	float w = projection[ 3 ][ 3 ] - projection[ 2 ][ 3 ] * distance;
+	vec2 xy = at * w + vec2( projection[ 2 ].xy ) * distance - projection[ 3 ].xy;
+	return vec3( xy / vec2( projection[ 0 ][ 0 ], projection[ 1 ][ 1 ] ), - distance );
+
+}
