@@ -25,6 +25,6 @@ void main() {
 	light += getLightProbeGridIrradiance( probesSH[ 0 ], probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ], position, worldNormal )[ channel ];
 	light -= getLightProbeGridIrradiance( probesSH[ 1 ], probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ], position, worldNormal )[ channel ];
 	vec4 n = vec4( normal, 1.0 );
-	result = vec4( max( dot( n, sky * n ), 1e-6 ), light, 0.0, 0.0 );
+	result = vec4( 1.0, clamp( light / max( dot( n, sky * n ), 1e-6 ), 0.0, 1.0 ), 0.0, 0.0 );
 
 }

@@ -20,7 +20,7 @@ class GridIntegrator : public Integrator {
     DirectAndIndirect light(not_direct_, options_.factors);
     const int rays = trace_path(world_, receiver, 0, random, light);
     if (options_.sky == nullptr || !wants_indirect(options_.part)) return {light.direct, rays};
-    return {light.direct + reflected_in_folds(receiver, random), rays + sky_rays};
+    return {light.direct + reflected_in_folds(receiver, random), rays + static_cast<int>(sky_rays)};
   }
 
   Vec3f known(const Receiver& receiver) const override {
@@ -28,36 +28,46 @@ class GridIntegrator : public Integrator {
   }
 
  private:
-  /// By which the share of the sky that is seen is found.
-  static constexpr int sky_rays = 8;
+  /// By which the share of the sky that is seen is found, in two halves.
+  static constexpr size_t sky_rays = 8;
+
+  /// Irradiance of the sky where nothing would hide it, and where it is seen.
+  struct SkyLight {
+    Vec3f open{}, seen{};
+
+    SkyLight operator+(const SkyLight& other) const { return {open + other.open, seen + other.seen}; }
+    SkyLight operator*(float share) const { return {open * share, seen * share}; }
+  };
 
   /// What the surfaces within a cell reflect onto one another beyond what the grids know, since rays, not grids, find
-  /// the sky's light.
+  /// the sky's light. It is no linear function of that: what its noise adds is taken out by what it adds to the halves
+  /// (Quenouille's jackknife, 1949).
   Vec3f reflected_in_folds(const Receiver& receiver, Random& random) const {
     const Shading& shading = receiver.shading;
     const Vec3f& normal = shading.shading_normal;
     const Vec3f albedo = shading.bsdf.albedo(dot(normal, shading.out)).diffuse;
     if (max_component(albedo) <= 0) return {};
-    const SkyLight sky = sky_light(receiver, random);
     const Vec3f in_cells = options_.sky->irradiance(receiver.position, normal, normal);
     const Vec3f reflected = options_.field->irradiance(receiver.position, normal, normal);
-    const Vec3f share_in_cells = share_of(in_cells, sky.open), share = share_of(sky.seen, sky.open);
-    const Vec3f all = irradiance_in_folds(albedo, sky.seen, reflected, share_in_cells, share);
-    return albedo * (all - sky.seen - reflected) / pi;
+    const auto in_folds = [&](const SkyLight& sky) {
+      const Vec3f share_in_cells = share_of(in_cells, sky.open), share = share_of(sky.seen, sky.open);
+      return irradiance_in_folds(albedo, sky.seen, reflected, share_in_cells, share) - sky.seen - reflected;
+    };
+    const std::array<SkyLight, 2> halves = sky_light(receiver, random);
+    const Vec3f of_both = in_folds((halves[0] + halves[1]) * 0.5f);
+    return albedo * (of_both * 2 - (in_folds(halves[0]) + in_folds(halves[1])) * 0.5f) / pi;
   }
 
-  /// Irradiance of the sky where nothing would hide it, and where it is seen.
-  struct SkyLight {
-    Vec3f open{}, seen{};
-  };
-  SkyLight sky_light(const Receiver& receiver, Random& random) const {
+  /// By each half of the rays.
+  std::array<SkyLight, 2> sky_light(const Receiver& receiver, Random& random) const {
     const Shading& shading = receiver.shading;
-    const float dimmed = pi / static_cast<float>(sky_rays);
-    const Vec3f scale = options_.factors.of(world_.lights().environment_luminaire()) * dimmed;
+    const float of_a_ray = 2 * pi / static_cast<float>(sky_rays);
+    const Vec3f scale = options_.factors.of(world_.lights().environment_luminaire()) * of_a_ray;
     const Frame frame(shading.shading_normal);
     const float u = random.uniform(), v = random.uniform();
-    SkyLight light;
+    std::array<SkyLight, 2> halves;
     for (size_t i = 0; i < sky_rays; i++) {
+      SkyLight& light = halves[i % 2];
       const Vec3f direction = frame.to_world(cosine_direction(i, sky_rays, u, v));
       const Vec3f radiance = scale * world_.lights().environment().radiance(direction);
       light.open += radiance;
@@ -65,7 +75,7 @@ class GridIntegrator : public Integrator {
       const Arrival arrival{.direction = direction, .distance = std::numeric_limits<float>::infinity()};
       light.seen += radiance * visibility(world_.surfaces(), receiver.position, shading.normal, arrival, random);
     }
-    return light;
+    return halves;
   }
 
   static Vec3f share_of(const Vec3f& light, const Vec3f& all) {

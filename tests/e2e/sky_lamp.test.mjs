@@ -118,6 +118,9 @@ const settle = (page) =>
 const MEAN = 0.5;
 const P95 = 1;
 
+/** What is left of the grid's own difference to the path tracer, whose noise is in both. */
+const MOST_OF_GRID = 0.6;
+
 const SKY = writeSky(`${folder}/sky.hdr`);
 
 for (const [name, environment] of [
@@ -132,18 +135,15 @@ for (const [name, environment] of [
     await pictureOf(page, first);
     await settle(page);
     await pictureOf(page, last);
-    for (const [integrator, file, samples] of [
-      ['ivg', ivg, '256'],
-      ['path', path, '1024'],
-    ]) {
-      const picture = ['--integrator', integrator, '--tone', 'none', '--size', '320x180', '--spp', samples, '--quiet'];
+    for (const [integrator, file] of [['ivg', ivg], ['path', path]]) {
+      const picture = ['--integrator', integrator, '--tone', 'none', '--size', '320x180', '--spp', '512', '--quiet'];
       execFileSync(`${BIN}/lightwell`, ['render', pack, '-o', file, ...picture]);
     }
     const [before, after, byGrid] = [differenceOf(path, first), differenceOf(path, last), differenceOf(ivg, last)];
     const words = ({ mean, p95 }) => `mean ${mean.toFixed(2)}, 95th percentile ${p95.toFixed(2)}`;
     t.diagnostic(`to the path tracer ${words(before)} at first, ${words(after)} at rest; to render ${words(byGrid)}`);
     assert.ok(byGrid.mean <= MEAN && byGrid.p95 <= P95, words(byGrid));
-    assert.ok(after.mean < before.mean && after.p95 < before.p95, words(after));
+    assert.ok(after.mean < MOST_OF_GRID * before.mean && after.p95 < MOST_OF_GRID * before.p95, words(after));
     assert.deepEqual(errors, []);
   });
 

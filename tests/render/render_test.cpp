@@ -223,7 +223,7 @@ TEST(Render, FindsWhatIsReflectedInFoldsThatTheGridDoesNotKnow) {
     const double whole = static_cast<double>(albedo) * open / (1 - static_cast<double>(albedo) * (1 - open));
     const auto path = find_integrator("path").make(*world, options);
     EXPECT_NEAR(mean_of(*path), whole, 0.03 * whole) << albedo;
-    // Eight rays a sample leave a little of their noise in a quotient.
+    // Rays leave a little of their noise in a quotient.
     EXPECT_NEAR(mean_of(*grid), whole, 0.04 * whole) << albedo;
   }
 }

@@ -9,6 +9,7 @@ import {
   DoubleSide,
   FloatType,
   GLSL3,
+  HalfFloatType,
   Light,
   LinearSRGBColorSpace,
   Matrix3,
@@ -50,6 +51,7 @@ export const DIRECT_KIT = {
   DoubleSide,
   FloatType,
   GLSL3,
+  HalfFloatType,
   /** Only types have it abstract. */
   Light: Light as unknown as new (color?: number, intensity?: number) => Light,
   LinearSRGBColorSpace,

@@ -119,7 +119,8 @@ export class DirectLight {
     const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
     this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
     // Each colour of the sky, the last lamp, has a share of its own, and one that its grids have.
-    this.#shares = new ScreenShares(this.lamps.length + (this.lamps.some(isSky) ? 5 : 0), width);
+    const [ofSky, inGrids] = this.lamps.some(isSky) ? [3, 3] : [1, 0];
+    this.#shares = new ScreenShares(this.lamps.length + ofSky - 1, inGrids, width);
     this.#skyInGrids = new SkyInGrids(this.#shares.screen);
     const size = definitions.length > FEW_LAMPS ? 2 : 1;
     this.#shadows = this.lamps.map((lamp) => {

@@ -12,6 +12,7 @@ const SUMS = 6;
 /** That the sums may take, in bytes: of many lamps in a large picture they are coarser than its pixels. */
 const MOST_BYTES = 96 * 2 ** 20;
 const BYTES_OF_A_SUM = 8;
+const BYTES_OF_A_RATIO = 4;
 const COPY = `precision highp float;uniform highp sampler2D table;out vec4 result;
 void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
 
@@ -34,17 +35,20 @@ export class ScreenShares {
   readonly #projection: Matrix4 = new three.Matrix4();
   readonly #view: Matrix4 = new three.Matrix4();
 
+  /** `shares`: which samples are added up to; behind those there are some that are written whole. */
   constructor(
     shares: number,
+    private readonly written: number,
     private readonly tableWidth: number,
   ) {
     const floats = { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter };
     const flat = { ...floats, depthBuffer: false };
     const sum = () => new three.WebGLRenderTarget(1, 1, { ...flat, format: three.RGFormat });
+    const ratio = () => new three.WebGLRenderTarget(1, 1, { ...flat, format: three.RGFormat, type: three.HalfFloatType });
     this.picture = new three.WebGLRenderTarget(tableWidth, 2, flat);
     this.picture.scissorTest = true;
     this.#surfaces = new three.WebGLRenderTarget(1, 1, floats);
-    this.#sums = Array.from({ length: shares }, sum);
+    this.#sums = [...Array.from({ length: shares }, sum), ...Array.from({ length: written }, ratio)];
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
     this.#shares = new FullScreen(this.screen, sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
@@ -73,8 +77,8 @@ export class ScreenShares {
     this.#place.copy(camera.matrixWorld);
     this.#view.copy(camera.matrixWorldInverse);
     this.#projection.copy(camera.projectionMatrix);
-    const bytes = BYTES_OF_A_SUM * viewport.z * viewport.w * (this.#sums.length + 1);
-    const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / bytes));
+    const bytes = BYTES_OF_A_SUM * (this.#sums.length - this.written + 1) + BYTES_OF_A_RATIO * this.written;
+    const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / (bytes * viewport.z * viewport.w)));
     const [width, height] = [viewport.z, viewport.w].map((pixels) => Math.max(1, Math.floor(pixels * sharpness))) as [number, number];
     for (const target of [this.#surfaces, this.#spare, ...this.#sums]) {
       target.setSize(width, height);
@@ -117,7 +121,7 @@ export class ScreenShares {
     [this.#sums[share], this.#spare] = [this.#spare, this.#sums[share]!];
   }
 
-  /** Lets a pass that comes behind shaders/seen_surface.glsl write the sums of a share in their place, or a part of them. */
+  /** Lets a pass that comes behind shaders/seen_surface.glsl write a share, as two sums whose ratio it is, or a part of it. */
   write(renderer: WebGLRenderer, share: number, pass: FullScreen, values: Record<string, unknown>): void {
     pass.draw(renderer, this.#sums[share]!, { surfaces: this.#surfaces.texture, projection: this.#projection, ...values });
   }
