@@ -5,7 +5,8 @@
 precision highp float;
 precision highp sampler2D;
 
-uniform sampler2D surfaces;     // octahedral geometric normal, distance along the view: 0 where nothing is
+// Octahedral geometric normal; distance along the view, 0 where nothing is; octahedral normal of the shading, two whole numbers of 12 bits.
+uniform sampler2D surfaces;
 uniform mat4 projection;
 
 vec3 unpackNormal( vec2 packed ) {
@@ -13,6 +14,13 @@ vec3 unpackNormal( vec2 packed ) {
 	vec3 n = vec3( packed, 1.0 - abs( packed.x ) - abs( packed.y ) );
 	if ( n.z < 0.0 ) n.xy = ( 1.0 - abs( n.yx ) ) * vec2( n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0 );
 	return normalize( n );
+
+}
+
+vec3 unpackShading( float packed ) {
+
+	float x = floor( packed / 4096.0 );
+	return unpackNormal( vec2( x, packed - 4096.0 * x ) / 2047.5 - 1.0 );
 
 }
 

@@ -114,18 +114,22 @@ void main() {
 	vec3 n = unpackNormal( surface.rg );
 	vec3 way = positionOf( surface.b ) - point;
 	#ifdef SUN
-		float cosine = - dot( n, vec3( axes[ 0 ][ 2 ], axes[ 1 ][ 2 ], axes[ 2 ][ 2 ] ) );
-		float weight = 1.0;
+		vec3 direction = - vec3( axes[ 0 ][ 2 ], axes[ 1 ][ 2 ], axes[ 2 ][ 2 ] );
+		float weight = strength;
 	#else
 		float squared = dot( way, way );
-		float cosine = - dot( n, way ) * inversesqrt( squared );
-		float leaving = dot( normal, way ) * inversesqrt( squared );
+		vec3 direction = - way * inversesqrt( squared );
+		float leaving = - dot( normal, direction );
 		float weight = normal == vec3( 0.0 ) ? 1.0 : max( 0.0, bothSides ? abs( leaving ) : leaving );
-		weight /= squared;
+		weight *= strength / squared;
 	#endif
-	// A trifle where the point is below the horizon: pixels to which that happens for all points are dark.
-	weight *= strength * max( cosine, 1e-4 );
-	float lit = cosine > 0.0 && weight > 0.0 ? lookUp( receiverOf( way, n ) ) : 0.0;
-	result = vec4( before + weight * vec2( 1.0, lit ), 0.0, 0.0 );
+	// Nothing comes from below the surface's plane; what the shading would take from there is folded up (lightwell/trace/shading.h). A trifle where
+	// the shading takes nothing: pixels to which that happens for all points are dark.
+	vec3 shading = unpackShading( surface.a );
+	float above = dot( n, direction );
+	float cosine = max( dot( shading, direction ), 1e-4 );
+	float folded = max( 0.0, dot( shading, direction - 2.0 * above * n ) );
+	float lit = above > 0.0 && weight > 0.0 ? lookUp( receiverOf( way, n ) ) : 0.0;
+	result = vec4( before + weight * vec2( cosine, ( cosine + folded ) * lit ), 0.0, 0.0 );
 
 }

@@ -14,7 +14,7 @@ out vec4 result;
 void main() {
 
 	vec4 surface = texelFetch( surfaces, ivec2( gl_FragCoord.xy ), 0 );
-	vec3 normal = unpackNormal( surface.rg );
+	vec3 normal = unpackShading( surface.a );
 	vec3 position = ( place * vec4( positionOf( surface.b ), 1.0 ) ).xyz;
 	vec3 worldNormal = mat3( place ) * normal;
 	bool inside = isInsideLightProbeGrid( position, worldNormal, probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ] );

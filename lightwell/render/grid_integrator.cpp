@@ -68,10 +68,11 @@ class GridIntegrator : public Integrator {
     std::array<SkyLight, 2> halves;
     for (size_t i = 0; i < sky_rays; i++) {
       SkyLight& light = halves[i % 2];
-      const Vec3f direction = frame.to_world(cosine_direction(i, sky_rays, u, v));
+      Vec3f direction = frame.to_world(cosine_direction(i, sky_rays, u, v));
+      // Folded up as the reflection of Shading is.
+      direction += shading.normal * (2 * std::max(0.0f, -dot(direction, shading.normal)));
       const Vec3f radiance = scale * world_.lights().environment().radiance(direction);
       light.open += radiance;
-      if (dot(direction, shading.normal) <= 0) continue;
       const Arrival arrival{.direction = direction, .distance = std::numeric_limits<float>::infinity()};
       light.seen += radiance * visibility(world_.surfaces(), receiver.position, shading.normal, arrival, random);
     }

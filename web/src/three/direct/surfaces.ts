@@ -7,6 +7,23 @@ export type Part = 'casters' | 'seen';
 
 const NOTHING = () => {};
 
+/** What shaders/seen_surface.glsl unpacks: behind the texts of three.js's material for depths. */
+const VARYING = 'varying vec3 vPlace, vShading;';
+const VERTEX = `#ifndef USE_DISPLACEMENTMAP
+#include <beginnormal_vertex>
+#include <morphnormal_vertex>
+#include <skinnormal_vertex>
+#endif
+#include <defaultnormal_vertex>
+vPlace=mvPosition.xyz;vShading=transformedNormal;}`;
+const PACK = `vec2 packNormal(vec3 n){n/=abs(n.x)+abs(n.y)+abs(n.z);
+return n.z<0.0?(1.0-abs(n.yx))*vec2(n.x<0.0?-1.0:1.0,n.y<0.0?-1.0:1.0):n.xy;}`;
+/** Without normals the shading is flat; of a surface that is seen from behind they are turned. */
+const FRAGMENT = `vec3 n=normalize(cross(dFdx(vPlace),dFdy(vPlace)));
+float along=dot(n,vShading);
+vec2 shading=floor(2047.5*packNormal(along==0.0?n:along*vShading)+2048.0);
+gl_FragColor=vec4(packNormal(n),-vPlace.z,4096.0*shading.x+shading.y);}`;
+
 /**
  * Draws the surfaces of somebody's scene by materials of its own: depths alone, or each surface's normal and distance. Cut-out
  * materials stay cut out; forms that change, skeletons and instances are drawn as three.js has them.
@@ -76,12 +93,8 @@ export class Surfaces {
     this.#own.add(material);
     if (part === 'casters') return material;
     material.onBeforeCompile = (shader) => {
-      shader.vertexShader = `varying vec3 vPlace;\n${shader.vertexShader.replace(/}\s*$/, 'vPlace = mvPosition.xyz; }')}`;
-      const packed = `vec3 n = normalize( cross( dFdx( vPlace ), dFdy( vPlace ) ) );
-        n /= abs( n.x ) + abs( n.y ) + abs( n.z );
-        vec2 folded = ( 1.0 - abs( n.yx ) ) * vec2( n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0 );
-        gl_FragColor = vec4( n.z < 0.0 ? folded : n.xy, - vPlace.z, 1.0 ); }`;
-      shader.fragmentShader = `varying vec3 vPlace;\n${shader.fragmentShader.replace(/}\s*$/, packed)}`;
+      shader.vertexShader = [VARYING, shader.vertexShader.replace(/}\s*$/, VERTEX)].join('\n');
+      shader.fragmentShader = [VARYING, PACK, shader.fragmentShader.replace(/}\s*$/, FRAGMENT)].join('\n');
     };
     return material;
   }
