@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// sky_lamp.mjs PACK [SAMPLES]: how far the page's picture of a pack that was baked with --sky-apart is from that of the path tracer, with so
+// sky_lamp.mjs PACK [SAMPLES]: how far the page's picture of a pack whose sky is apart is from that of the path tracer, with so
 // many samples a pixel (256 when it is left out): CIEDE2000 over the pixels of 640 x 360 that show the pack, without tone curve, by the
 // grid alone, and at rest, when the sky is a lamp; and how long a direction took, in milliseconds.
 import { execFileSync } from 'node:child_process';

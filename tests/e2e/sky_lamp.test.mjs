@@ -114,9 +114,12 @@ const settle = (page) =>
     while (pack.shadowSamples < Infinity);
   });
 
-/** CIEDE2000 to the picture of `render` from the same grid and the sky's light by rays, whose noise is in it; 1 is just visible. */
-const MEAN = 0.5;
-const P95 = 1;
+/**
+ * CIEDE2000 to the picture of `render` from the same grid and the sky's light by rays; 1 is just visible. Noise is most of it: under a picture of
+ * a sky two of those, by other seeds, differ by 0.67 in the mean and 1.31 at the 95th percentile.
+ */
+const MEAN = 0.65;
+const P95 = 1.3;
 
 /** What is left of the grid's own difference to the path tracer, whose noise is in both. */
 const MOST_OF_GRID = 0.6;
