@@ -10,7 +10,7 @@
 //   colour: radiance, or intensity; range, 0 without end; of a sky that of its shadows
 //   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
 //   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
-//   normal; number of its share, of a sky that of red, before those of green and blue, and those that its grid has of each
+//   normal; number of its share, of a sky that of red, before those of green and blue; behind these, what of each is in its grid
 // Above row 0 the shares, one for every pixel of the viewport or for a few: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
 // beyond six beside it, again and again.
 
@@ -69,8 +69,8 @@ ivec2 getPlaceOfShares( sampler2D map, float distance ) {
 
 }
 
-// What the sky gives a fragment, as a lamp: by what its light is multiplied on the way, which share of it surfaces hide that its grid knows nothing of, the
-// irradiance, and what comes from where it mirrors.
+// What the sky gives a fragment, as a lamp: by what its light is multiplied on the way, which share of it surfaces within a cell hide of which
+// its grid knows nothing, the irradiance, and what comes from where it mirrors.
 struct SkyLight {
 	bool lit;
 	vec3 share;
@@ -88,6 +88,21 @@ vec3 getSkyIrradiance( sampler2D map, vec3 normal ) {
 	vec3 irradiance = vec3( 0.0 );
 	for ( int i = 0; i < 12; i ++ ) irradiance[ i / 4 ] += n[ i % 4 ] * dot( texelFetch( map, ivec2( 2 + i, 0 ), 0 ), n );
 	return max( irradiance, vec3( 0.0 ) );
+
+}
+
+// How much shares of the sky's light tell of a surface: nothing where little of it comes from where that faces (lightwell/render/folds.h).
+vec3 getWeightOfSkyShares( sampler2D map, vec3 open ) {
+
+	vec3 weight;
+	for ( int c = 0; c < 3; c ++ ) {
+
+		float mean = 0.0;
+		for ( int i = 0; i < 4; i ++ ) mean += texelFetch( map, ivec2( 2 + 4 * c + i, 0 ), 0 )[ i ] / ( i < 3 ? 3.0 : 1.0 );
+		weight[ c ] = mean > 0.0 ? smoothstep( 0.05, 0.2, open[ c ] / mean ) : 0.0;
+
+	}
+	return weight;
 
 }
 

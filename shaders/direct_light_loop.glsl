@@ -17,16 +17,23 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 			vec3 way = geometryPosition - lamp.position;
 			if ( dot( way, way ) > pow2( lamp.range ) ) continue;
 			vec3 mirrored = reflect( - geometryViewDir, geometryNormal );
+			vec3 open = getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], geometryNormal );
 			skyLight.lit = true;
 			skyLight.share = lamp.color;
-			if ( shadowed ) for ( int c = 0; c < 3; c ++ ) {
+			skyLight.hidden = vec3( 0.0 );
+			if ( shadowed ) {
 
-				float share = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
-				skyLight.share[ c ] *= share;
-				skyLight.hidden[ c ] = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + 3 + c ) - share;
+				for ( int c = 0; c < 3; c ++ ) {
+
+					float share = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + c );
+					skyLight.share[ c ] *= share;
+					skyLight.hidden[ c ] = getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share + 3 + c ) - share;
+
+				}
+				skyLight.hidden *= getWeightOfSkyShares( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], open );
 
 			}
-			skyLight.irradiance = skyLight.share * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], geometryNormal );
+			skyLight.irradiance = skyLight.share * open;
 			skyLight.mirrored = skyLight.share * getSkyIrradiance( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], mirrored ) * RECIPROCAL_PI;
 			continue;
 

@@ -9,16 +9,16 @@
 
 		#if defined( RE_IndirectDiffuse )
 
-			irradiance += skyLight.irradiance;
-			iblIrradiance = vec3( 0.0 );
-
-			// Of what hides the sky within a cell the grid of reflected light knows nothing: it is as bright as the fragment (lightwell/render/folds.h).
+			// What hides the sky within a cell, unknown to the grid of reflected light, is as bright as the fragment (lightwell/render/folds.h).
 			#ifdef STANDARD
-				vec3 albedo = material.diffuseContribution;
+				vec3 albedo = material.diffuseContribution * ( 1.0 - onceByDielectric - moreByDielectric );
 			#else
 				vec3 albedo = material.diffuseColor;
 			#endif
-			irradiance = max( skyLight.irradiance, irradiance / ( 1.0 - min( albedo * skyLight.hidden, 0.95 ) ) );
+			vec3 ofGrid = PI * getLightProbeGridRadiance( transformDirectionByInverseViewMatrix( geometryNormal, viewMatrix ) );
+			vec3 inFold = ( skyLight.irradiance + ofGrid ) / ( 1.0 - min( albedo * skyLight.hidden, 0.95 ) );
+			irradiance += max( skyLight.irradiance, inFold ) - ofGrid;
+			iblIrradiance = vec3( 0.0 );
 
 		#endif
 

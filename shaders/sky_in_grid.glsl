@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A full-screen pass: which share of one colour of the sky's light a grid has at every pixel, as two sums whose ratio it is: what the grid is
-// with the sky's own light, less what it is without, to the irradiance where nothing hides the sky. Comes behind seen_surface.glsl and
-// light_grid.glsl, whose two grids are those.
+// A full-screen pass: which share of each colour of the sky's light a grid has at every pixel: what the grid is with the sky's own light, less
+// what it is without, to the irradiance where nothing hides the sky. Comes behind seen_surface.glsl and light_grid.glsl, whose two grids are
+// those.
 
 uniform mat4 place;             // from the camera's space into the world
-uniform mat4 sky;               // the irradiance of a surface of the normal n in the camera's space: n sky n
-uniform int channel;
-uniform bool first;             // whether pixels outside the grid are none of another one's
+uniform mat4 sky[ 3 ];          // of each colour, the irradiance of a surface of the normal n in the camera's space: n sky n
+uniform bool first;             // whether this grid is the first: others leave pixels outside of them as they are
 
 out vec4 result;
 
@@ -19,12 +18,12 @@ void main() {
 	vec3 worldNormal = mat3( place ) * normal;
 	bool inside = isInsideLightProbeGrid( position, worldNormal, probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ] );
 	if ( ! first && ! inside ) discard;
-	result = vec4( 0.0 );
+	result = vec4( 1.0 );
 	if ( surface.b == 0.0 || ! inside ) return;
-	float light = 0.0;
-	light += getLightProbeGridIrradiance( probesSH[ 0 ], probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ], position, worldNormal )[ channel ];
-	light -= getLightProbeGridIrradiance( probesSH[ 1 ], probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ], position, worldNormal )[ channel ];
+	vec3 light = getLightProbeGridIrradiance( probesSH[ 0 ], probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ], position, worldNormal );
+	light -= getLightProbeGridIrradiance( probesSH[ 1 ], probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ], position, worldNormal );
 	vec4 n = vec4( normal, 1.0 );
-	result = vec4( 1.0, clamp( light / max( dot( n, sky * n ), 1e-6 ), 0.0, 1.0 ), 0.0, 0.0 );
+	vec3 open = vec3( dot( n, sky[ 0 ] * n ), dot( n, sky[ 1 ] * n ), dot( n, sky[ 2 ] * n ) );
+	result.rgb = clamp( light / max( open, 1e-6 ), 0.0, 1.0 );
 
 }

@@ -17,8 +17,8 @@ using Clock = std::chrono::steady_clock;
 /// Rounds of dividing, each by what the one before has left; and the finest level.
 constexpr int rounds = 6;
 constexpr int finest_level = 3;
-/// Where this many rounds are over, what errs by more than so often the target will not come to it with three times the
-/// bytes (docs/decisions/041-the-sky-as-a-lamp.md).
+/// What errs by more than so many times the target after so many rounds, with a third of the bytes, does not come to it
+/// (docs/decisions/041-the-sky-as-a-lamp.md).
 constexpr int rounds_of_promise = 2;
 constexpr float most_of_promise = 2;
 /// What a brick adds to the stream, bytes, until it is known of this grid.

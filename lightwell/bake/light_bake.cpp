@@ -186,19 +186,24 @@ Result<void> refine(CoarseLight& coarse, const TestPoints& judge, const LightBak
   return {};
 }
 
-/// Bakes the grids over a box; adds to the statistics. None where they are to hold the sky's light only as far as they
-/// come to the target with it (SkyApart::as_needed), and do not.
-Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions options, const LightBakeOptions& divided,
-                                        Effort effort, Progress& progress, LightBakeStatistics& statistics) {
+/// Grids, or none where they were to come to the target error and did not, but to another one.
+struct Baked {
+  std::vector<BakedGrid> grids;
+  float missed = 0;
+};
+
+/// Bakes the grids over a box; adds to the statistics.
+Result<Baked> bake_box(const Place& place, LightBakeOptions options, const LightBakeOptions& divided, Effort effort,
+                       bool must_reach, Progress& progress, LightBakeStatistics& statistics) {
   LW_TRY(coarse, affordable_light(place, divided, effort, progress, statistics.rays));
   options.estimator.effort = effort.rays;
   statistics.rays += coarse->rays();
   LW_TRY(judge, judges(*coarse, effort, progress));
-  const bool must_reach = options.sky_apart == SkyApart::as_needed;
   if (effort.adaptive) LW_CHECK(refine(*coarse, judge, options, effort, must_reach, progress, statistics));
-  if (must_reach && statistics.refinement != Refinement::to_target) return std::vector<BakedGrid>();
   statistics.nodes += coarse->best().nodes();
   LightGrid all = coarse->best().take();
+  const float error = judge.error(all);
+  if (must_reach && error > options.target_error) return Baked{.grids = {}, .missed = error};
   LW_TRY(grids,
          light_by_parts(place, *coarse, all, options, divided.beside != LuminaireSet(), progress, statistics.rays));
   for (BakedGrid& baked : grids) {
@@ -207,40 +212,59 @@ Result<std::vector<BakedGrid>> bake_box(const Place& place, LightBakeOptions opt
     baked.dark = judge.dark();
   }
   statistics.invalid_nodes += static_cast<size_t>(std::count(all.valid.begin(), all.valid.end(), 0));
-  return grids;
+  return Baked{.grids = std::move(grids)};
 }
 
-/// Bakes the grids of a scene, over what it is about and, where that is not all, over the rest; none as bake_box().
-Result<std::vector<BakedGrid>> bake_boxes(const World& world, const FreeSpace& space, const LightBakeOptions& options,
-                                          Clock::time_point start, Progress& progress,
-                                          LightBakeStatistics& statistics) {
+/// Bakes the grids of a scene, over what it is about and, where that is not all, over the rest. The former alone
+/// may miss the target.
+Result<Baked> bake_boxes(const World& world, const FreeSpace& space, const LightBakeOptions& options,
+                         Clock::time_point start, bool must_reach, Progress& progress,
+                         LightBakeStatistics& statistics) {
   std::vector<Box3f> boxes{world.surfaces().focus()};
   if (boxes.front() != world.surfaces().bounds()) boxes.push_back(world.surfaces().bounds());
   const int again = gathered_again(
       light_parts(world, options.estimator.contained, options.groups, options.sky_apart == SkyApart::always), options);
-  std::vector<BakedGrid> grids;
+  Baked all;
   for (const Box3f& box : boxes) {
-    const Extent extent = boxes.size() == 1 ? Extent::whole : grids.empty() ? Extent::focus : Extent::surroundings;
-    LightBakeOptions of_box = options;
-    // What it is about decides.
-    if (extent == Extent::surroundings && options.sky_apart == SkyApart::as_needed) of_box.sky_apart = SkyApart::never;
-    const LightBakeOptions divided = of_divided(of_box, world, extent);
+    const Extent extent = boxes.size() == 1 ? Extent::whole : all.grids.empty() ? Extent::focus : Extent::surroundings;
+    const LightBakeOptions divided = of_divided(options, world, extent);
     const Effort effort = effort_of(divided, start, again, extent);
-    LW_TRY(baked, bake_box({world, space, box}, of_box, divided, effort, progress, statistics));
-    if (baked.empty()) return baked;
-    for (BakedGrid& grid : baked) {
+    const bool must = must_reach && extent != Extent::surroundings;
+    LW_TRY(baked, bake_box({world, space, box}, options, divided, effort, must, progress, statistics));
+    if (baked.grids.empty()) return baked;
+    for (BakedGrid& grid : baked.grids) {
       grid.priority = static_cast<int>(&boxes.back() - &box);
-      grids.push_back(std::move(grid));
+      all.grids.push_back(std::move(grid));
     }
   }
-  return grids;
+  return all;
 }
 
-/// Whether the sky's light is to be in grids of its own, as far as that is known beforehand.
-SkyApart sky_apart(const World& world, const LightBakeOptions& options) {
+/// Bakes one grid of all light or, where that would miss the target, the sky's own apart, if that errs by less.
+Result<Baked> bake_as_needed(const World& world, const FreeSpace& space, LightBakeOptions options,
+                             Clock::time_point start, Progress& progress, LightBakeStatistics& statistics) {
+  options.sky_apart = SkyApart::never;
+  LW_TRY(together, bake_boxes(world, space, options, start, true, progress, statistics));
+  if (!together.grids.empty()) return together;
+  uint64_t rays = statistics.rays;
+  const auto bake = [&](SkyApart sky_apart) {
+    options.sky_apart = sky_apart;
+    statistics = LightBakeStatistics();
+    auto baked = bake_boxes(world, space, options, start, false, progress, statistics);
+    statistics.rays = rays += statistics.rays;
+    return baked;
+  };
+  LW_TRY(apart, bake(SkyApart::always));
+  // The rest of the light may be what errs: then it is better off with all of the bytes.
+  const bool pays = apart.grids.front().estimated_error <= most_after_refinement * together.missed;
+  return pays ? std::move(apart) : bake(SkyApart::never);
+}
+
+/// Whether it is to be found out where the sky's light is to be.
+bool asks_for_need(const World& world, const LightBakeOptions& options) {
   const bool has_target = options.nodes == 0 && !options.draft && !std::isfinite(options.seconds);
-  if (!options.estimator.contained.contains(world.lights().environment_luminaire())) return SkyApart::never;
-  return options.sky_apart == SkyApart::as_needed && !has_target ? SkyApart::never : options.sky_apart;
+  const bool has_sky = options.estimator.contained.contains(world.lights().environment_luminaire());
+  return options.sky_apart == SkyApart::as_needed && has_target && has_sky;
 }
 
 }  // namespace
@@ -268,22 +292,14 @@ Result<std::vector<BakedGrid>> bake_light(const World& world, const LightBakeOpt
   survey.most_photons = std::min(survey.most_photons, options.estimator.photons);
   LW_TRY(space, FreeSpace::survey(world, survey, progress));
 
-  LightBakeOptions chosen = options;
-  chosen.sky_apart = sky_apart(world, options);
-  LW_TRY(grids, bake_boxes(world, space, chosen, start, progress, statistics));
-  if (grids.empty()) {
-    chosen.sky_apart = SkyApart::always;
-    const uint64_t rays = statistics.rays;
-    statistics = {};
-    statistics.rays = rays;
-    LW_TRY(apart, bake_boxes(world, space, chosen, start, progress, statistics));
-    grids = std::move(apart);
-  }
+  LW_TRY(baked, asks_for_need(world, options) ? bake_as_needed(world, space, options, start, progress, statistics)
+                                              : bake_boxes(world, space, options, start, false, progress, statistics));
+  std::vector<BakedGrid>& grids = baked.grids;
   statistics.estimated_error = grids.front().estimated_error;
   statistics.estimate = grids.front().estimate;
   statistics.dark = grids.front().dark;
   statistics.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return grids;
+  return std::move(grids);
 }
 
 }  // namespace lightwell

@@ -15,8 +15,8 @@ namespace lightwell {
 
 /// Whether the environment's own light has grids of its own, apart from what surfaces reflect, beside which a client
 /// finds that light more finely. `as_needed`: where one grid of all light, whose cells blur the shadows of small
-/// things, would not come to the target within its bytes. A regular grid, a draft and one whose time is limited then
-/// hold it.
+/// things, does not come to the target within its bytes, and errs by more than what is left in a grid without it.
+/// Regular grids, drafts and bakes whose time is limited then have one of all.
 enum class SkyApart { never, as_needed, always };
 
 struct LightBakeOptions {

@@ -339,7 +339,8 @@ CLI::App* add_bake(CLI::App& program, Console& console, std::function<int()>& ch
       *command, "--sky-apart", options->sky_apart,
       {{"auto", SkyApart::as_needed}, {"always", SkyApart::always}, {"never", SkyApart::never}},
       "Keep the sky's own light in a grid apart from what surfaces reflect: the page then refines its shadows. auto: "
-      "where one grid would not reach --target-error within --budget");
+      "where one grid would miss --target-error and what is reflected alone errs less; not with --grid N, --preview or "
+      "--stop-after");
   command->add_flag("--resume", options->resume,
                     "Keep the light of each node in PACK.journal, and go on with what an interrupted run left there");
   command->footer(

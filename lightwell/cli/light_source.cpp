@@ -52,6 +52,7 @@ Result<LightField> light_of(const OpenedScene& scene, const SceneOptions& option
   if (scene.pack) return light_of_pack(*scene.pack, level);
   LightBakeStatistics statistics;
   LightBakeOptions light = options.light(contained);
+  light.sky_apart = SkyApart::as_needed;
   light.groups = groups;
   LW_TRY(grids, bake_light(world, light, progress, statistics));
   for (BakedGrid& baked : grids) baked.grid.lookup = level.lookup;

@@ -2,25 +2,35 @@
 #include "lightwell/render/grid_integrator.h"
 
 #include "lightwell/render/folds.h"
+#include "lightwell/render/open_sky.h"
 
 namespace lightwell {
 namespace {
 
+/// Of the light of an environment as it is multiplied.
+Vec3f times_factor(const Vec3f& light, const IntegratorOptions& options, const World& world) {
+  return light * options.factors.of(world.lights().environment_luminaire());
+}
+
 class GridIntegrator : public Integrator {
  public:
-  GridIntegrator(const World& world, const IntegratorOptions& options) : world_(world), options_(options) {
+  GridIntegrator(const World& world, const IntegratorOptions& options)
+      : world_(world), options_(options), open_sky_(world.lights().environment()) {
     for (int i = 0; i < static_cast<int>(world.lights().luminaires().size()); i++)
       if (options.held.contains(i) || options.left_out.contains(i)) not_direct_.insert(i);
   }
 
-  bool samples() const override { return wants_direct(options_.part); }
+  bool samples() const override { return wants_direct(options_.part) || finds_folds(); }
 
   ReflectedLight sample(const Receiver& receiver, Random& random) const override {
-    if (!samples()) return {};
-    DirectAndIndirect light(not_direct_, options_.factors);
-    const int rays = trace_path(world_, receiver, 0, random, light);
-    if (options_.sky == nullptr || !wants_indirect(options_.part)) return {light.direct, rays};
-    return {light.direct + reflected_in_folds(receiver, random), rays + static_cast<int>(sky_rays)};
+    ReflectedLight reflected;
+    if (wants_direct(options_.part)) {
+      DirectAndIndirect light(not_direct_, options_.factors);
+      reflected.rays = trace_path(world_, receiver, 0, random, light);
+      reflected.radiance = light.direct;
+    }
+    if (finds_folds()) add_folds(receiver, random, reflected);
+    return reflected;
   }
 
   Vec3f known(const Receiver& receiver) const override {
@@ -28,66 +38,57 @@ class GridIntegrator : public Integrator {
   }
 
  private:
-  /// By which the share of the sky that is seen is found, in two halves.
-  static constexpr size_t sky_rays = 8;
+  bool finds_folds() const { return options_.sky != nullptr && wants_indirect(options_.part); }
 
-  /// Irradiance of the sky where nothing would hide it, and where it is seen.
-  struct SkyLight {
-    Vec3f open{}, seen{};
-
-    SkyLight operator+(const SkyLight& other) const { return {open + other.open, seen + other.seen}; }
-    SkyLight operator*(float share) const { return {open * share, seen * share}; }
-  };
-
-  /// What the surfaces within a cell reflect onto one another beyond what the grids know, since rays, not grids, find
-  /// the sky's light. It is no linear function of that: what its noise adds is taken out by what it adds to the halves
-  /// (Quenouille's jackknife, 1949).
-  Vec3f reflected_in_folds(const Receiver& receiver, Random& random) const {
+  /// Adds what the surfaces within a cell reflect onto one another beyond what the grids know, since rays, not grids,
+  /// find the sky's light. It is no linear function of that: what the rays' noise adds is taken out by what it adds to
+  /// two halves of them (Quenouille's jackknife, 1949).
+  void add_folds(const Receiver& receiver, Random& random, ReflectedLight& light) const {
     const Shading& shading = receiver.shading;
     const Vec3f& normal = shading.shading_normal;
     const Vec3f albedo = shading.bsdf.albedo(dot(normal, shading.out)).diffuse;
-    if (max_component(albedo) <= 0) return {};
-    const Vec3f in_cells = options_.sky->irradiance(receiver.position, normal, normal);
+    if (max_component(albedo) <= 0) return;
+    const Vec3f open = times_factor(open_sky_.irradiance(normal), options_, world_);
     const Vec3f reflected = options_.field->irradiance(receiver.position, normal, normal);
-    const auto in_folds = [&](const SkyLight& sky) {
-      const Vec3f share_in_cells = share_of(in_cells, sky.open), share = share_of(sky.seen, sky.open);
-      return irradiance_in_folds(albedo, sky.seen, reflected, share_in_cells, share) - sky.seen - reflected;
+    SkyInFold shares{.open = open,
+                     .mean = times_factor(open_sky_.mean(), options_, world_),
+                     .in_cells = options_.sky->irradiance(receiver.position, normal, normal)};
+    const auto in_fold = [&](const Vec3f& share) {
+      shares.share = share;
+      return irradiance_in_fold(albedo, share * open, reflected, shares) - share * open;
     };
-    const std::array<SkyLight, 2> halves = sky_light(receiver, random);
-    const Vec3f of_both = in_folds((halves[0] + halves[1]) * 0.5f);
-    return albedo * (of_both * 2 - (in_folds(halves[0]) + in_folds(halves[1])) * 0.5f) / pi;
+    const Vec3f one = share_of_sky(receiver, random), other = share_of_sky(receiver, random);
+    const Vec3f whole = in_fold((one + other) / 2) * 2 - (in_fold(one) + in_fold(other)) / 2;
+    light.radiance += albedo * (whole - reflected) / pi;
+    light.rays += 2 * static_cast<int>(sky_rays);
   }
 
-  /// By each half of the rays.
-  std::array<SkyLight, 2> sky_light(const Receiver& receiver, Random& random) const {
+  /// Of what would come from the sky, by a few rays.
+  Vec3f share_of_sky(const Receiver& receiver, Random& random) const {
     const Shading& shading = receiver.shading;
-    const float of_a_ray = 2 * pi / static_cast<float>(sky_rays);
-    const Vec3f scale = options_.factors.of(world_.lights().environment_luminaire()) * of_a_ray;
     const Frame frame(shading.shading_normal);
     const float u = random.uniform(), v = random.uniform();
-    std::array<SkyLight, 2> halves;
+    Vec3f all{}, seen{};
     for (size_t i = 0; i < sky_rays; i++) {
-      SkyLight& light = halves[i % 2];
       Vec3f direction = frame.to_world(cosine_direction(i, sky_rays, u, v));
       // Folded up as the reflection of Shading is.
       direction += shading.normal * (2 * std::max(0.0f, -dot(direction, shading.normal)));
-      const Vec3f radiance = scale * world_.lights().environment().radiance(direction);
-      light.open += radiance;
+      const Vec3f radiance = world_.lights().environment().radiance(direction);
       const Arrival arrival{.direction = direction, .distance = std::numeric_limits<float>::infinity()};
-      light.seen += radiance * visibility(world_.surfaces(), receiver.position, shading.normal, arrival, random);
+      all += radiance;
+      seen += radiance * visibility(world_.surfaces(), receiver.position, shading.normal, arrival, random);
     }
-    return halves;
-  }
-
-  static Vec3f share_of(const Vec3f& light, const Vec3f& all) {
     Vec3f share = Vec3f::filled(1);
     for (size_t c = 0; c < 3; c++)
-      if (all[c] > 0) share[c] = light[c] / all[c];
+      if (all[c] > 0) share[c] = seen[c] / all[c];
     return share;
   }
 
+  static constexpr size_t sky_rays = 4;
+
   const World& world_;
   const IntegratorOptions& options_;
+  const OpenSky open_sky_;
   LuminaireSet not_direct_;
 };
 

@@ -36,7 +36,7 @@ struct IntegratorOptions {
   /// The baked light, for integrators that look it up, and the luminaires whose direct light it holds, which then
   /// counts as indirect.
   const LightField* field = nullptr;
-  /// The sky's own light as a field had it that `field` was parted from (leave_sky_to_rays), if it was.
+  /// The sky's own light where it was taken out of `field`, to be found by rays (leave_sky_to_rays).
   const LightField* sky = nullptr;
   LuminaireSet held{};
   /// Luminaires whose direct light is left out. Their bounced light stays.

@@ -49,6 +49,18 @@ test('beside a wall the floor has the light of the closed form', async (t) => {
   assert.deepEqual(errors, []);
 });
 
+// What the wall hides, and the grid does not know of, is as bright as the floor: white among white is nowhere darker than the open sky.
+test('what a white floor does not get from the sky it gets from the wall that hides it', async (t) => {
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.skyBesideWall);
+  const row = await page.evaluate(() => skyBesideWall(2, 512, true));
+  const off = Math.max(...row.map((value) => Math.abs(value / Math.PI - 1)));
+  t.diagnostic(`off by ${off.toFixed(4)} at most`);
+  // Shares are whole numbers of 12 bits, and the grid's light is in half floats.
+  assert.ok(off < 0.005, `${off}`);
+  assert.deepEqual(errors, []);
+});
+
 const MATT = { pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.6, 0.6, 0.6, 1] }, extensions: { KHR_materials_specular: { specularFactor: 0 } } };
 
 /** A Radiance picture: bright and warm to +x, cold to +z, blue above, dark below. */

@@ -38,14 +38,19 @@ interface Lit {
   changes: number;
 }
 
-/** A black grid of a pack whose sky is apart, and the one that is shown in its place. */
-function blackGrids(): LightwellLight[] {
+/** Half floats: what a grid's first coefficient is where the irradiance is that of an open sky of radiance 1, pi. */
+const OPEN_SKY = 0x4317;
+
+/** A grid of a pack whose sky is apart, black or as if nothing hid the sky anywhere, and the one that is shown in its place, which is black. */
+function gridsOf(open: boolean): LightwellLight[] {
   const whole: LightGridDefinition = { stream: 0, min: [-2, -2, -2], cell: [4, 4, 4], nodes: [2, 2, 2], normalOffset: 0, contains: ['environment'] };
   return [whole, { ...whole, stream: -1, contains: [], insteadOf: whole }].map((definition) => {
     const atlas = { atlas: new Uint16Array(4 * 2 * 2 * 28), width: 2, height: 2, depth: 28 };
     const [one, weights] = [0x3c00, 4 * 2 * 2 * 24];
     atlas.atlas.fill(one, 0, 3);
     for (let at = weights + 3; at < atlas.atlas.length; at += 4) atlas.atlas[at] = one;
+    // Behind the two texels of the header.
+    if (open && definition === whole) for (let at = 8; at < 4 * 2 * 2 * 4; at += 4) atlas.atlas.fill(OPEN_SKY, at, at + 3);
     return new LightwellLight(definition, atlas);
   });
 }
@@ -127,9 +132,12 @@ export async function penumbra(definition: LampDefinition, half: number, samples
   return { shares, changes: lit.changes };
 }
 
-/** A sky of radiance 1 over a floor with a wall along z, 1 high: the irradiance of each pixel of a row from the wall on, `far` long. */
-export async function skyBesideWall(far: number, samples: number): Promise<number[]> {
-  const lit = light([], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])], blackGrids());
+/**
+ * A sky of radiance 1 over a white floor with a wall along z, 1 high: the irradiance of each pixel of a row from the wall on, `far` long. `open`:
+ * whether the grid has the sky as if there were no wall.
+ */
+export async function skyBesideWall(far: number, samples: number, open = false): Promise<number[]> {
+  const lit = light([], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])], gridsOf(open));
   const camera = rowCamera(far / 2);
   camera.position.x = far / 2;
   const width = 64;
@@ -143,7 +151,7 @@ export async function skyBesideWall(far: number, samples: number): Promise<numbe
 export async function skyOnOwnObject(samples: number): Promise<number> {
   const own = surface(1, 1, [0, 0, 0], [0, 1, 0]);
   own.receiveShadow = false;
-  const lit = light([], [own, surface(3, 3, [0, 1.5, 0], [0, 1, 0])], blackGrids());
+  const lit = light([], [own, surface(3, 3, [0, 1.5, 0], [0, 1, 0])], gridsOf(false));
   const camera = rowCamera(0.1);
   await settle(lit, camera, 8, samples);
   const row = rowOf(lit.scene, camera, 8);

@@ -110,7 +110,11 @@ export class LightGroups {
     // Of several places the sums have the same parts.
     const names = this.#sums.map(({ namesOfSky }) => namesOfSky).find(({ length }) => length > 0) ?? [];
     const of = product(names.map((name) => this.#factors.get(name)!));
-    for (const lamp of lamps) if (lamp.definition.kind === 'sky') tint(lamp.color, this.#lampColors, lamp, of);
+    for (const lamp of lamps) {
+      if (lamp.definition.kind !== 'sky') continue;
+      tint(lamp.color, this.#lampColors, lamp, of);
+      lamp.userData.inGrids = of;
+    }
   }
 
   /** The surface that a lamp stands for; its material may be that of others, too. */

@@ -119,9 +119,9 @@ export class DirectLight {
     const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
     this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
     // Each colour of the sky, the last lamp, has a share of its own, and one that its grids have.
-    const [ofSky, inGrids] = this.lamps.some(isSky) ? [3, 3] : [1, 0];
-    this.#shares = new ScreenShares(this.lamps.length + ofSky - 1, inGrids, width);
-    this.#skyInGrids = new SkyInGrids(this.#shares.screen);
+    const hasSky = this.lamps.some(isSky);
+    this.#shares = new ScreenShares(this.lamps.length + (hasSky ? 2 : 0), hasSky, width);
+    this.#skyInGrids = new SkyInGrids();
     const size = definitions.length > FEW_LAMPS ? 2 : 1;
     this.#shadows = this.lamps.map((lamp) => {
       const middle = new ShadowMap(hasPicture(lamp), sizeOf(lamp) / size);
@@ -271,8 +271,7 @@ export class DirectLight {
       shadow.count = 0;
       this.#showStale = true;
     }
-    const sky = shining.find((shadow) => isSky(shadow.lamp) && showsSky(shadow));
-    if (sky !== undefined && this.#drawSkyInGrids(camera, sky)) this.#showStale = true;
+    if (shining.some((shadow) => isSky(shadow.lamp) && showsSky(shadow)) && this.#drawSkyInGrids(camera)) this.#showStale = true;
     if (this.#showStale) this.#shares.show(renderer);
     this.#showStale = false;
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
@@ -280,13 +279,13 @@ export class DirectLight {
   }
 
   /** Says whether it was not there. */
-  #drawSkyInGrids(camera: Camera, sky: Shadow): boolean {
-    const { color, intensity } = sky.lamp;
-    const factors = color.toArray().map((channel) => channel * intensity);
-    const irradiance = this.#sky.irradiance(camera.matrixWorldInverse).map((matrix, c) => matrix.multiplyScalar(factors[c]!));
+  #drawSkyInGrids(camera: Camera): boolean {
     this.#drawSurfaces();
-    const share = this.#shadows.indexOf(sky) + 3;
-    return this.#skyInGrids.draw(this.#surroundings.renderer, this.#shares, share, camera, this.#sky.replaced, irradiance);
+    const { renderer } = this.#surroundings;
+    // The lamp's own colour may be another (LightGroups).
+    const factors = this.lamps.find(isSky)!.userData.inGrids;
+    const irradiance = () => this.#sky.irradiance(camera.matrixWorldInverse, factors);
+    return this.#skyInGrids.draw(renderer, this.#shares, camera, this.#sky.replaced, irradiance);
   }
 
   /** What the present view shows, unless that is drawn. */

@@ -12,7 +12,8 @@ const SUMS = 6;
 /** That the sums may take, in bytes: of many lamps in a large picture they are coarser than its pixels. */
 const MOST_BYTES = 96 * 2 ** 20;
 const BYTES_OF_A_SUM = 8;
-const BYTES_OF_A_RATIO = 4;
+/** And of what is ready without sums. */
+const READY = 3;
 const COPY = `precision highp float;uniform highp sampler2D table;out vec4 result;
 void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
 
@@ -22,11 +23,13 @@ void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
  */
 export class ScreenShares {
   readonly picture: WebGLRenderTarget;
+  /** Three shares as colours, for who knows them otherwise than by samples. */
+  readonly ready: WebGLRenderTarget;
   readonly #surfaces: WebGLRenderTarget;
   readonly #sums: WebGLRenderTarget[];
   /** The sums are added up from one target into another, which then takes its place. */
   #spare: WebGLRenderTarget;
-  readonly screen: BufferGeometry = createScreen();
+  readonly #screen: BufferGeometry = createScreen();
   readonly #lookups = new Map<string, FullScreen>();
   readonly #shares: FullScreen;
   readonly #table: FullScreen;
@@ -35,24 +38,30 @@ export class ScreenShares {
   readonly #projection: Matrix4 = new three.Matrix4();
   readonly #view: Matrix4 = new three.Matrix4();
 
-  /** `shares`: which samples are added up to; behind those there are some that are written whole. */
+  /** `sums`: how many shares are the ratios of sums; behind those there may be three that are `ready` without. */
   constructor(
-    shares: number,
-    private readonly written: number,
+    sums: number,
+    private readonly hasReady: boolean,
     private readonly tableWidth: number,
   ) {
     const floats = { type: three.FloatType, minFilter: three.NearestFilter, magFilter: three.NearestFilter };
     const flat = { ...floats, depthBuffer: false };
     const sum = () => new three.WebGLRenderTarget(1, 1, { ...flat, format: three.RGFormat });
-    const ratio = () => new three.WebGLRenderTarget(1, 1, { ...flat, format: three.RGFormat, type: three.HalfFloatType });
     this.picture = new three.WebGLRenderTarget(tableWidth, 2, flat);
     this.picture.scissorTest = true;
     this.#surfaces = new three.WebGLRenderTarget(1, 1, floats);
-    this.#sums = [...Array.from({ length: shares }, sum), ...Array.from({ length: written }, ratio)];
+    this.#sums = Array.from({ length: sums }, sum);
+    this.ready = new three.WebGLRenderTarget(1, 1, { ...flat, type: three.HalfFloatType });
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
-    this.#shares = new FullScreen(this.screen, sharesShader, { surfaces: { value: null }, sums: { value: textures }, start: { value: null } });
-    this.#table = new FullScreen(this.screen, COPY, { table: { value: null } });
+    this.#shares = new FullScreen(this.#screen, sharesShader, {
+      surfaces: { value: null },
+      sums: { value: textures },
+      ready: { value: null },
+      firstReady: { value: 0 },
+      start: { value: null },
+    });
+    this.#table = new FullScreen(this.#screen, COPY, { table: { value: null } });
   }
 
   /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
@@ -77,15 +86,15 @@ export class ScreenShares {
     this.#place.copy(camera.matrixWorld);
     this.#view.copy(camera.matrixWorldInverse);
     this.#projection.copy(camera.projectionMatrix);
-    const bytes = BYTES_OF_A_SUM * (this.#sums.length - this.written + 1) + BYTES_OF_A_RATIO * this.written;
-    const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / (bytes * viewport.z * viewport.w)));
+    const targets = this.#sums.length + 1 + Number(this.hasReady);
+    const sharpness = Math.min(1, Math.sqrt(MOST_BYTES / (BYTES_OF_A_SUM * targets * viewport.z * viewport.w)));
     const [width, height] = [viewport.z, viewport.w].map((pixels) => Math.max(1, Math.floor(pixels * sharpness))) as [number, number];
-    for (const target of [this.#surfaces, this.#spare, ...this.#sums]) {
+    for (const target of [this.#surfaces, this.#spare, ...this.#sums, ...(this.hasReady ? [this.ready] : [])]) {
       target.setSize(width, height);
       // Their memory is taken now, so that no later frame waits for that.
       renderer.initRenderTarget(target);
     }
-    this.picture.setSize(Math.max(this.tableWidth, Math.ceil(this.#sums.length / SUMS) * width), height + 1);
+    this.picture.setSize(Math.max(this.tableWidth, this.#layers * width), height + 1);
     return true;
   }
 
@@ -121,18 +130,20 @@ export class ScreenShares {
     [this.#sums[share], this.#spare] = [this.#spare, this.#sums[share]!];
   }
 
-  /** Lets a pass that comes behind shaders/seen_surface.glsl write a share, as two sums whose ratio it is, or a part of it. */
-  write(renderer: WebGLRenderer, share: number, pass: FullScreen, values: Record<string, unknown>): void {
-    pass.draw(renderer, this.#sums[share]!, { surfaces: this.#surfaces.texture, projection: this.#projection, ...values });
+  /** What a pass reads that comes behind shaders/seen_surface.glsl. */
+  get seen(): Record<string, unknown> {
+    return { surfaces: this.#surfaces.texture, projection: this.#projection };
   }
 
   /** Shows the shares as they are now. */
   show(renderer: WebGLRenderer): void {
     const { width, height } = this;
-    for (let layer = 0; layer * SUMS < this.#sums.length; layer++) {
+    for (let layer = 0; layer < this.#layers; layer++) {
       const sums = Array.from({ length: SUMS }, (_, i): Texture => (this.#sums[layer * SUMS + i] ?? this.#spare).texture);
       this.#part(layer * width, 1, width, height);
-      this.#shares.draw(renderer, this.picture, { surfaces: this.#surfaces.texture, sums, start: new three.Vector2(layer * width, 1) });
+      const firstReady = this.hasReady ? this.#sums.length - layer * SUMS : SUMS;
+      const start = new three.Vector2(layer * width, 1);
+      this.#shares.draw(renderer, this.picture, { surfaces: this.#surfaces.texture, sums, ready: this.ready.texture, firstReady, start });
     }
   }
 
@@ -144,8 +155,13 @@ export class ScreenShares {
 
   dispose(): void {
     for (const pass of [this.#shares, this.#table, ...this.#lookups.values()]) pass.dispose();
-    for (const target of [this.picture, this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
-    this.screen.dispose();
+    for (const target of [this.picture, this.ready, this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
+    this.#screen.dispose();
+  }
+
+  /** Beside one another in the picture, six shares each. */
+  get #layers(): number {
+    return Math.ceil((this.#sums.length + (this.hasReady ? READY : 0)) / SUMS);
   }
 
   #part(x: number, y: number, width: number, height: number): void {
@@ -158,7 +174,7 @@ export class ScreenShares {
     const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
     const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
-    const pass = this.#lookups.get(key) ?? new FullScreen(this.screen, seenSurface + lookupShader, uniforms, defines);
+    const pass = this.#lookups.get(key) ?? new FullScreen(this.#screen, seenSurface + lookupShader, uniforms, defines);
     this.#lookups.set(key, pass);
     return pass;
   }

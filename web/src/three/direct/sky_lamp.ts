@@ -77,11 +77,11 @@ export class SkyLamp {
     return this.irradiance(view).flatMap((matrix) => matrix.toArray());
   }
 
-  /** Of each colour the irradiance where nothing hides it, by normals in a camera's space (Sky); after `renew`. */
-  irradiance(view: Matrix4): Matrix4[] {
+  /** Of each colour, times a factor, the irradiance where nothing hides it, by normals in a camera's space (Sky); after `renew`. */
+  irradiance(view: Matrix4, factors: readonly number[] = [1, 1, 1]): Matrix4[] {
     const turn = new three.Matrix4().extractRotation(view).multiply(this.#turn());
     const back = turn.clone().transpose();
-    return this.#sky!.irradiance.map((matrix) => turn.clone().multiply(matrix).multiply(back));
+    return this.#sky!.irradiance.map((matrix, c) => turn.clone().multiply(matrix).multiply(back).multiplyScalar(factors[c]!));
   }
 
   /** From the pack's axes into the world's. */

@@ -21,6 +21,9 @@ return n.z<0.0?(1.0-abs(n.yx))*vec2(n.x<0.0?-1.0:1.0,n.y<0.0?-1.0:1.0):n.xy;}`;
 /** Without normals the shading is flat; of a surface that is seen from behind they are turned. */
 const FRAGMENT = `vec3 n=normalize(cross(dFdx(vPlace),dFdy(vPlace)));
 float along=dot(n,vShading);
+#ifdef FLAT
+along=0.0;
+#endif
 vec2 shading=floor(2047.5*packNormal(along==0.0?n:along*vShading)+2048.0);
 gl_FragColor=vec4(packNormal(n),-vPlace.z,4096.0*shading.x+shading.y);}`;
 
@@ -71,7 +74,8 @@ export class Surfaces {
     const { transparent, transmission = 0, visible } = of as Material & { transmission?: number };
     const drawn = transmission === 0 && (part === 'casters' ? mesh.castShadow : !transparent);
     if (!mesh.isMesh || !visible || !drawn) return this.#hidden;
-    const key = part === 'casters' ? part : `${of.side}`;
+    const { flatShading = false } = of as MeshStandardMaterial;
+    const key = part === 'casters' ? part : `${of.side}${flatShading}`;
     // What is seen through casts a share of a shadow: some of its places do.
     const cut = of.alphaTest > 0 || of.alphaHash || transparent;
     let known = this.#plain;
@@ -79,7 +83,7 @@ export class Surfaces {
       known = this.#cutOut.get(of) ?? new Map<string, Material>();
       this.#cutOut.set(of, known);
     }
-    const material = known.get(key) ?? this.#create(part, part === 'casters' ? three.DoubleSide : of.side);
+    const material = known.get(key) ?? this.#create(part, part === 'casters' ? three.DoubleSide : of.side, flatShading);
     known.set(key, material);
     if (cut) {
       const { map, alphaMap, alphaTest, opacity } = of as MeshStandardMaterial;
@@ -88,14 +92,16 @@ export class Surfaces {
     return material;
   }
 
-  #create(part: Part, side: Side): Material {
+  #create(part: Part, side: Side, flat: boolean): Material {
     const material = new three.MeshDepthMaterial({ side, blending: three.NoBlending, colorWrite: part === 'seen' });
     this.#own.add(material);
     if (part === 'casters') return material;
     material.onBeforeCompile = (shader) => {
       shader.vertexShader = [VARYING, shader.vertexShader.replace(/}\s*$/, VERTEX)].join('\n');
       shader.fragmentShader = [VARYING, PACK, shader.fragmentShader.replace(/}\s*$/, FRAGMENT)].join('\n');
+      if (flat) shader.fragmentShader = `#define FLAT\n${shader.fragmentShader}`;
     };
+    material.customProgramCacheKey = () => `seen${flat}`;
     return material;
   }
 }
