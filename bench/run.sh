@@ -249,7 +249,7 @@ bench_sky() {
   local name options
   while read -r name options; do
     # shellcheck disable=SC2086 # these are options
-    show "$lightwell" bake "$shared/data/$name" $options -o "$out/sky.lw.glb" --quiet >"$out/sky.txt" </dev/null
+    show "$lightwell" bake "$shared/data/$name" --sky-apart always $options -o "$out/sky.lw.glb" --quiet >"$out/sky.txt" </dev/null
     show node bench/sky_lamp.mjs "$out/sky.lw.glb" </dev/null
   done <<SCENES
 objects/chess-board.glb --environment 1,1,1

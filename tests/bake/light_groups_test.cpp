@@ -195,6 +195,8 @@ TEST(LightParts, TheSkyIsApartWhereOneGridWouldMissTheTarget) {
   dark.environment.radiance = {};
   dark.lamps = {point_lamp({{4, 4, 4}}, {{10, 10, 10}})};
   EXPECT_EQ(bake(*world_of(dark), 0, {}, SkyApart::as_needed).size(), 1u) << "without a sky";
+  const Scene lamps = three_lights();
+  EXPECT_EQ(bake(*world_of(lamps), 0, {}, SkyApart::as_needed).size(), 1u) << "lamps err, not the sky";
 }
 
 TEST(LightGroups, OneGroupChangesNothing) {
