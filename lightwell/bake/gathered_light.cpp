@@ -7,6 +7,7 @@
 #include "lightwell/bake/node_journal.h"
 #include "lightwell/bake/sheets.h"
 #include "lightwell/base/fingerprint.h"
+#include "lightwell/light/add_radiance.h"
 
 namespace lightwell {
 namespace {
@@ -21,16 +22,6 @@ constexpr float seldom_insides = 0.5f;
 
 /// Of a cell: how far behind a surface a node answers for it.
 constexpr float close_by = 0.5f;
-
-/// Adds radiance from a direction, times the solid angle that it stands for.
-void add_radiance(Moments& moments, const Vec3f& w, const Vec3f& radiance) {
-  const auto sign = [&](int a) { return w[a] < 0 ? -1.0f : 1.0f; };
-  const auto mixed = [&](int a, int b) { return radiance * ((sign(a) * w[b] + sign(b) * w[a]) / 2); };
-  for (int a = 0; a < 3; a++) moments.m[static_cast<size_t>(2 * a + (w[a] < 0))] += radiance * std::abs(w[a]);
-  moments.m[6] += mixed(0, 1);
-  moments.m[7] += mixed(0, 2);
-  moments.m[8] += mixed(1, 2);
-}
 
 }  // namespace
 

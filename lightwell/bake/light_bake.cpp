@@ -202,8 +202,10 @@ Result<Baked> bake_box(const Place& place, LightBakeOptions options, const Light
   if (effort.adaptive) LW_CHECK(refine(*coarse, judge, options, effort, must_reach, progress, statistics));
   statistics.nodes += coarse->best().nodes();
   LightGrid all = coarse->best().take();
-  const float error = judge.error(all);
-  if (must_reach && error > options.target_error) return Baked{.grids = {}, .missed = error};
+  if (must_reach) {
+    const float error = judge.error(all);
+    if (error > options.target_error) return Baked{.grids = {}, .missed = error};
+  }
   LW_TRY(grids,
          light_by_parts(place, *coarse, all, options, divided.beside != LuminaireSet(), progress, statistics.rays));
   for (BakedGrid& baked : grids) {

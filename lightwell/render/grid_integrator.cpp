@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/render/grid_integrator.h"
 
+#include "lightwell/light/add_radiance.h"
 #include "lightwell/render/folds.h"
-#include "lightwell/render/open_sky.h"
 
 namespace lightwell {
 namespace {
 
-/// Of the light of an environment as it is multiplied.
-Vec3f times_factor(const Vec3f& light, const IntegratorOptions& options, const World& world) {
-  return light * options.factors.of(world.lights().environment_luminaire());
-}
-
 class GridIntegrator : public Integrator {
  public:
-  GridIntegrator(const World& world, const IntegratorOptions& options)
-      : world_(world), options_(options), open_sky_(world.lights().environment()) {
+  GridIntegrator(const World& world, const IntegratorOptions& options) : world_(world), options_(options) {
+    if (options.sky != nullptr) see_open_sky();
     for (int i = 0; i < static_cast<int>(world.lights().luminaires().size()); i++)
       if (options.held.contains(i) || options.left_out.contains(i)) not_direct_.insert(i);
   }
@@ -38,6 +33,19 @@ class GridIntegrator : public Integrator {
   }
 
  private:
+  /// The irradiance of the sky where nothing hides it, in the moments that its grid has.
+  void see_open_sky() {
+    constexpr size_t count = 16'384;
+    const EnvironmentLight& sky = world_.lights().environment();
+    const Vec3f scale =
+        options_.factors.of(world_.lights().environment_luminaire()) * (4 * pi / static_cast<float>(count));
+    for (size_t i = 0; i < count; i++) {
+      const Vec3f direction = sphere_direction(i, count, 0.5f, 0.5f);
+      add_radiance(open_sky_, direction, sky.radiance(direction) * scale);
+    }
+    for (size_t axis = 0; axis < 6; axis++) mean_of_sky_ += open_sky_.m[axis] / 6;
+  }
+
   bool finds_folds() const { return options_.sky != nullptr && wants_indirect(options_.part); }
 
   /// Adds what the surfaces within a cell reflect onto one another beyond what the grids know, since rays, not grids,
@@ -48,11 +56,10 @@ class GridIntegrator : public Integrator {
     const Vec3f& normal = shading.shading_normal;
     const Vec3f albedo = shading.bsdf.albedo(dot(normal, shading.out)).diffuse;
     if (max_component(albedo) <= 0) return;
-    const Vec3f open = times_factor(open_sky_.irradiance(normal), options_, world_);
+    const Vec3f open = open_sky_.irradiance(normal);
     const Vec3f reflected = options_.field->irradiance(receiver.position, normal, normal);
-    SkyInFold shares{.open = open,
-                     .mean = times_factor(open_sky_.mean(), options_, world_),
-                     .in_cells = options_.sky->irradiance(receiver.position, normal, normal)};
+    SkyInFold shares{
+        .open = open, .mean = mean_of_sky_, .in_cells = options_.sky->irradiance(receiver.position, normal, normal)};
     const auto in_fold = [&](const Vec3f& share) {
       shares.share = share;
       return irradiance_in_fold(albedo, share * open, reflected, shares) - share * open;
@@ -88,7 +95,8 @@ class GridIntegrator : public Integrator {
 
   const World& world_;
   const IntegratorOptions& options_;
-  const OpenSky open_sky_;
+  Moments open_sky_;
+  Vec3f mean_of_sky_{};
   LuminaireSet not_direct_;
 };
 

@@ -6,7 +6,6 @@
 #include "lightwell/render/camera.h"
 #include "lightwell/render/folds.h"
 #include "lightwell/render/grid_integrator.h"
-#include "lightwell/render/open_sky.h"
 #include "tests/render/find_integrator.h"
 #include "tests/trace/chi_square.h"
 #include "tests/trace/scenes.h"
@@ -246,19 +245,6 @@ TEST(Folds, LeaveTheSkysOwnLightAndWhatSharesDoNotTell) {
   EXPECT_FLOAT_EQ(irradiance[0], 1.3f);
   EXPECT_FLOAT_EQ(irradiance[1], 2);
   EXPECT_FLOAT_EQ(irradiance[2], 0.4f);
-}
-
-// Of a sky that is even it is pi times its radiance, whichever way a surface faces.
-TEST(OpenSky, HasTheIrradianceOfClosedForms) {
-  Environment even;
-  even.radiance = {{1, 2, 3}};
-  const EnvironmentLight light(even);
-  const OpenSky open(light);
-  for (const Vec3f& n : {Vec3f{{0, 1, 0}}, Vec3f{{0, -1, 0}}, normalized(Vec3f{{1, 2, -3}})})
-    for (size_t c = 0; c < 3; c++) {
-      EXPECT_NEAR(open.irradiance(n)[c], pi * even.radiance[c], 1e-3f);
-      EXPECT_NEAR(open.mean()[c], pi * even.radiance[c], 1e-3f);
-    }
 }
 
 TEST(Render, ShowsTheEnvironmentOnlyInTheTotal) {
