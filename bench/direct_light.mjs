@@ -49,7 +49,7 @@ try {
     const { pack } = document.querySelector('lightwell-view');
     pack.setShadows('soft', milliseconds);
     while (pack.shadowSamples < Infinity) await new Promise(requestAnimationFrame);
-    return pack.lamps.reduce((sum, { definition: { kind } }) => sum + (kind === 'rectangle' || kind === 'sphere' ? 256 : 32), 0);
+    return pack.lamps.reduce((sum, { definition: { radiance } }) => sum + (radiance === undefined ? 32 : 256), 0);
   }, ALL_TIME);
   const took = performance.now() - started;
   await shoot(files.last);

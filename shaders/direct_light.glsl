@@ -8,7 +8,7 @@
 // sky three matrices, one a colour, for the irradiance of a surface with the normal n: n M n; then five a lamp, all in the camera's space:
 //   position (of a sun: where its light comes from; of a sky: the middle of what its shadows are drawn of), kind
 //   colour: radiance, or intensity; range, 0 without end; of a sky that of its shadows
-//   half a rectangle's first side; radius of a sphere, or cosine of a spot's outer angle
+//   half a rectangle's first side; radius of a disc or sphere, or cosine of a spot's outer angle
 //   half its second side; 1 when it shines to both sides, or cosine of a spot's inner angle
 //   normal; number of its share, of a sky that of red, before those of green and blue; behind these, what of each is in its grid
 // Above row 0 the shares, one for every pixel of the viewport or for a few: red the distance of what is seen there, the others two shares each as whole numbers of 12 bits; of lamps
@@ -18,11 +18,12 @@
 
 #define LAMPS_OF_PACK -100.0
 #define LAMP_RECTANGLE 0
-#define LAMP_SPHERE 1
-#define LAMP_POINT 2
-#define LAMP_SPOT 3
-#define LAMP_SUN 4
-#define LAMP_SKY 5
+#define LAMP_DISC 1
+#define LAMP_SPHERE 2
+#define LAMP_POINT 3
+#define LAMP_SPOT 4
+#define LAMP_SUN 5
+#define LAMP_SKY 6
 
 struct Lamp {
 	vec3 position;
@@ -30,7 +31,7 @@ struct Lamp {
 	vec3 color;
 	float range;
 	vec3 u;
-	float outer;     // radius of a sphere, cosine of a spot's outer angle
+	float outer;     // radius of a disc or sphere, cosine of a spot's outer angle
 	vec3 v;
 	float inner;     // 1 when both sides shine, cosine of a spot's inner angle
 	vec3 normal;
@@ -117,6 +118,16 @@ float getShareOfLamp( sampler2D map, ivec2 place, int share ) {
 
 }
 
+// An axis as the last of three that are perpendicular, of which the first is turned towards somewhere.
+mat3 getFrame( vec3 axis, vec3 towards ) {
+
+	vec3 y = cross( axis, towards );
+	if ( dot( y, y ) < 1e-8 * dot( towards, towards ) ) y = cross( axis, abs( axis.x ) < 0.5 ? vec3( 1.0, 0.0, 0.0 ) : vec3( 0.0, 1.0, 0.0 ) );
+	y = normalize( y );
+	return mat3( cross( y, axis ), y, axis );
+
+}
+
 // What an edge of a polygon adds to twice its vector irradiance; the ends as seen from the receiver.
 vec3 getEdgeIrradiance( vec3 a, vec3 b ) {
 
@@ -126,15 +137,24 @@ vec3 getEdgeIrradiance( vec3 a, vec3 b ) {
 
 }
 
-// Vector irradiance of the part of a rectangle of radiance 1 that is above the horizon of a receiver (Lambert's formula): along the
+// A corner of a regular polygon that an affine map has made of one round the origin: of a rectangle with the half sides u and v, or of a
+// polygon of more corners as large as the ellipse with the half axes u and v.
+vec3 getCorner( vec3 center, vec3 u, vec3 v, int i, int corners ) {
+
+	float turn = PI2 / float( corners ), angle = turn * ( float( i ) + 0.5 );
+	return center + sqrt( corners == 4 ? 2.0 : turn / sin( turn ) ) * ( cos( angle ) * u + sin( angle ) * v );
+
+}
+
+// Vector irradiance of the part of such a polygon of radiance 1 that is above the horizon of a receiver (Lambert's formula): along the
 // normal it is the irradiance. `center` as seen from the receiver.
-vec3 getRectangleIrradiance( vec3 center, vec3 u, vec3 v, vec3 normal ) {
+vec3 getPolygonIrradiance( vec3 center, vec3 u, vec3 v, int corners, vec3 normal ) {
 
-	vec3 sum = vec3( 0.0 ), leaves = vec3( 0.0 ), enters = vec3( 0.0 );
-	for ( int i = 0; i < 4; i ++ ) {
+	vec3 sum = vec3( 0.0 ), leaves = vec3( 0.0 ), enters = vec3( 0.0 ), next = getCorner( center, u, v, 0, corners );
+	for ( int i = 1; i <= corners; i ++ ) {
 
-		vec3 a = center + ( i == 0 || i == 3 ? u : - u ) + ( i < 2 ? v : - v );
-		vec3 b = center + ( i > 1 ? u : - u ) + ( i == 0 || i == 3 ? v : - v );
+		vec3 a = next, b = getCorner( center, u, v, i, corners );
+		next = b;
 		float over = dot( a, normal ), then = dot( b, normal );
 		if ( over <= 0.0 && then <= 0.0 ) continue;
 		vec3 cut = mix( a, b, over / ( over - then ) );
@@ -144,6 +164,32 @@ vec3 getRectangleIrradiance( vec3 center, vec3 u, vec3 v, vec3 normal ) {
 
 	}
 	sum = 0.5 * ( sum + getEdgeIrradiance( leaves, enters ) );
+	return dot( sum, normal ) < 0.0 ? - sum : sum;
+
+}
+
+// The same of a disc, in closed form. Its rim is p(t) = center + radius (x cos t + y sin t), x away from the receiver's foot in its plane.
+// Twice the vector irradiance is the integral of p x p' / |p|^2 along the rim, from where it rises above the horizon to where it sets,
+// and back along the horizon; |p|^2 = a + b cos t. What floats would cancel is written out.
+vec3 getDiscIrradiance( vec3 center, vec3 axis, float radius, vec3 normal ) {
+
+	mat3 frame = getFrame( axis, center );
+	vec3 x = frame[ 0 ], y = frame[ 1 ];
+	float height = dot( center, axis ), away = max( dot( center, x ), 1e-3 * abs( height ) );
+	float a = dot( center, center ) + radius * radius, b = 2.0 * radius * away;
+	float farthest = pow2( away + radius ) + height * height;
+	float k = sqrt( ( pow2( away - radius ) + height * height ) / farthest ), root = max( farthest * k, 1e-6 * a );
+	float across = radius * length( vec2( dot( normal, x ), dot( normal, y ) ) );
+	float middle = atan( dot( normal, y ), dot( normal, x ) ), turned = acos( clamp( - dot( normal, center ) / max( across, 1e-9 * a ), - 1.0, 1.0 ) );
+	vec2 ends = vec2( middle - turned, middle + turned ), c = cos( ends ), s = sin( ends );
+	// Between them the integral of root / |p|^2 is 2 turned - 2 lag, that of sin t / |p|^2 is - log / b.
+	vec2 lags = atan( 2.0 * b / ( farthest * ( 1.0 + k ) ) * s, 1.0 + c + k * ( 1.0 - c ) );
+	float lag = lags.y - lags.x, grown = b * ( c.y - c.x ) / ( a + b * c.x ), less = b * b / ( root + a );
+	vec3 sum = ( turned * ( 2.0 * radius * radius - less ) + ( a - 2.0 * radius * radius ) * lag ) / root * axis;
+	sum += height / away * ( turned * less - a * lag ) / root * x;
+	sum += 0.5 * height / away * ( abs( grown ) < 1e-2 ? grown * ( 1.0 - 0.5 * grown ) : log( 1.0 + grown ) ) * y;
+	vec3 rises = center + radius * ( c.x * x + s.x * y ), sets = center + radius * ( c.y * x + s.y * y );
+	sum = 0.5 * ( sum + getEdgeIrradiance( sets, rises ) );
 	return dot( sum, normal ) < 0.0 ? - sum : sum;
 
 }
@@ -177,9 +223,9 @@ float getLamp( Lamp lamp, vec3 position, vec3 normal, out IncidentLight light ) 
 	light.direction = way * inversesqrt( squared );
 	light.color = lamp.color;
 	light.visible = true;
-	if ( lamp.kind == LAMP_RECTANGLE ) {
+	if ( lamp.kind < LAMP_SPHERE ) {
 
-		vec3 irradiance = getRectangleIrradiance( way, lamp.u, lamp.v, normal );
+		vec3 irradiance = lamp.kind == LAMP_DISC ? getDiscIrradiance( way, lamp.normal, lamp.outer, normal ) : getPolygonIrradiance( way, lamp.u, lamp.v, 4, normal );
 		bool behind = dot( way, lamp.normal ) >= 0.0 && lamp.inner < 0.5;
 		float strength = behind ? 0.0 : length( irradiance );
 		if ( strength > 0.0 ) light.direction = irradiance / strength;

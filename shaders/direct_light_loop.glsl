@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // To be put before the lookup of a spot light's map in three.js's chunk lights_fragment_begin (0.187): where the spot light stands for
-// the lamps of a pack, each of these lights the fragment. Gloss shows a large lamp as large, by a rougher surface.
+// the lamps of a pack, each of these lights the fragment, and gloss mirrors those that have an area (direct_light_gloss.glsl).
 
 if ( spotLight.decay == LAMPS_OF_PACK ) {
 
@@ -39,22 +39,44 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 
 		}
 		float reach = getLamp( lamp, geometryPosition, geometryNormal, directLight );
-		if ( shadowed ) directLight.color *= getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share );
+		float share = shadowed ? getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share ) : 1.0;
+		directLight.color *= share;
 		#ifdef STANDARD
+			vec3 specular = reflectedLight.directSpecular;
 			float roughness = material.roughness;
-			material.roughness = sqrt( sqrt( pow4( roughness ) + 0.25 * pow2( reach ) ) );
-			material.roughness = min( material.roughness, 1.0 );
-		#endif
-		#ifdef USE_CLEARCOAT
-			float clearcoatRoughness = material.clearcoatRoughness;
-			material.clearcoatRoughness = min( sqrt( sqrt( pow4( clearcoatRoughness ) + 0.25 * pow2( reach ) ) ), 1.0 );
+			#ifdef USE_CLEARCOAT
+				vec3 clearcoatSpecular = clearcoatSpecularDirect;
+			#endif
+			// Gloss that depends on the direction in the surface shows a large lamp as large by a rougher surface.
+			#ifdef USE_ANISOTROPY
+				material.roughness = min( sqrt( sqrt( pow4( roughness ) + 0.25 * pow2( reach ) ) ), 1.0 );
+			#endif
 		#endif
 		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
 		#ifdef STANDARD
 			material.roughness = roughness;
-		#endif
-		#ifdef USE_CLEARCOAT
-			material.clearcoatRoughness = clearcoatRoughness;
+			if ( lamp.kind > LAMP_SPHERE ) continue;
+			vec3 radiance = directLight.color == vec3( 0.0 ) ? vec3( 0.0 ) : lamp.color * share;
+			#ifndef USE_ANISOTROPY
+				vec2 seen = getLampInGloss( lamp, geometryPosition, geometryNormal, geometryViewDir, roughness );
+				vec3 gloss = material.specularColorBlended * seen.x + material.specularF90 * seen.y;
+				#ifdef USE_IRIDESCENCE
+					gloss = mix( gloss, material.iridescenceFresnel * ( seen.x + seen.y ), material.iridescence );
+				#endif
+				#ifdef USE_SHEEN
+					float sheenThere = IBLSheenBRDF( geometryNormal, directLight.direction, material.sheenRoughness );
+					float sheenBack = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+					gloss *= 1.0 - max3( material.sheenColor ) * max( sheenThere, sheenBack );
+				#endif
+				gloss *= ( material.dfg.x + material.dfg.y ) * material.multiScatteringCompensation;
+				reflectedLight.directSpecular = specular + radiance * gloss;
+			#endif
+			#ifdef USE_CLEARCOAT
+				vec2 seenInCoat = getLampInGloss( lamp, geometryPosition, geometryClearcoatNormal, geometryViewDir, material.clearcoatRoughness );
+				vec3 coat = material.clearcoatF0 * seenInCoat.x + material.clearcoatF90 * seenInCoat.y;
+				coat *= EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, vec3( 1.0 ), 1.0, material.clearcoatRoughness );
+				clearcoatSpecularDirect = clearcoatSpecular + radiance * coat;
+			#endif
 		#endif
 
 	}

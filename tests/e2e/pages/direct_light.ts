@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lamps without a pack: their irradiance on white surfaces, and their shadows.
+// Lamps without a pack: their irradiance on white surfaces, what gloss mirrors of them, and their shadows.
 import {
   Box3,
   type Camera,
@@ -9,6 +9,8 @@ import {
   Group,
   Mesh,
   MeshLambertMaterial,
+  MeshPhysicalMaterial,
+  type MeshPhysicalMaterialParameters,
   type Object3D,
   OrthographicCamera,
   PlaneGeometry,
@@ -106,6 +108,22 @@ export function irradiance(definition: LampDefinition, place: Triple, normal: Tr
   return measured!;
 }
 
+/** What a surface at a place, of which all is gloss, sends towards somebody far away of one lamp with nothing in its way, a number for each material. */
+export function mirrored(definition: LampDefinition, place: Triple, normal: Triple, viewer: Triple, materials: MeshPhysicalMaterialParameters[]): number[] {
+  const seen = surface(0.001, 0.001, place, normal);
+  const { direct, scene } = light([definition], [seen]);
+  direct.setShadows('off');
+  const camera = new OrthographicCamera(-0.0001, 0.0001, 0.0001, -0.0001, 0, 1);
+  camera.position.set(...place).addScaledVector(new Vector3(...viewer).normalize(), 0.5);
+  camera.lookAt(new Vector3(...place));
+  const values = materials.map((parameters) => {
+    seen.material = new MeshPhysicalMaterial({ color: 0, ...parameters });
+    return rowOf(scene, camera, 1)[0]! / Math.PI;
+  });
+  direct.dispose();
+  return values;
+}
+
 /** Lets so many samples of a row of pixels come. */
 async function settle(lit: Lit, camera: Camera, width: number, samples: number): Promise<void> {
   const { direct, scene } = lit;
@@ -198,4 +216,4 @@ export function ownObject(definition: LampDefinition): number[] {
   return values;
 }
 
-Object.assign(globalThis, { skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, penumbra, fromBehind });
+Object.assign(globalThis, { skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, mirrored, penumbra, fromBehind });

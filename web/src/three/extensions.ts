@@ -64,17 +64,18 @@ export interface LampDefinition {
   /** That it is switched and dimmed with. */
   group?: string;
   /** `sky`, which no pack has: all that surrounds it, where its light is apart in the grids. */
-  kind: 'rectangle' | 'sphere' | 'point' | 'spot' | 'sun' | 'sky';
+  kind: 'rectangle' | 'disc' | 'sphere' | 'point' | 'spot' | 'sun' | 'sky';
   center?: Triple;
   /** Where it shines. */
   normal?: Triple;
   /** Half the sides of a rectangle. */
   u?: Triple;
   v?: Triple;
-  /** A rectangle that shines to both sides. */
+  /** A rectangle or disc that shines to both sides. */
   twoSided?: boolean;
+  /** Of a disc or sphere. */
   radius?: number;
-  /** Of rectangles and spheres, W/m2/sr. */
+  /** Of rectangles, discs and spheres, W/m2/sr. */
   radiance?: Triple;
   /** Of points and spots W/sr, of suns W/m2. */
   intensity?: Triple;

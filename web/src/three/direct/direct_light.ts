@@ -206,7 +206,7 @@ export class DirectLight {
   #enough({ lamp: { definition } }: Shadow): number {
     if (this.#kind !== 'soft') return 0;
     const saving = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
-    const area = definition.kind === 'rectangle' || definition.kind === 'sphere';
+    const area = definition.radiance !== undefined;
     const points = definition.kind === 'sky' ? POINTS_OF_SKY : area ? POINTS : POINTS_OF_POINT;
     return points / (saving ? SAVING : 1);
   }

@@ -11,7 +11,7 @@ import { three } from './kit.js';
 export type Lamp = Light & { readonly definition: LampDefinition };
 
 /** In the order of shaders/direct_light.glsl. */
-const KINDS = ['rectangle', 'sphere', 'point', 'spot', 'sun', 'sky'] as const;
+const KINDS = ['rectangle', 'disc', 'sphere', 'point', 'spot', 'sun', 'sky'] as const;
 
 /** A lamp's form in the world. */
 export interface PlacedLamp {
@@ -20,7 +20,7 @@ export interface PlacedLamp {
   readonly position: Vector3;
   readonly u: Vector3;
   readonly v: Vector3;
-  /** Where a rectangle faces, a spot points or a sun's light goes. */
+  /** Where a rectangle or disc faces, a spot points or a sun's light goes. */
   readonly normal: Vector3;
   readonly radius: number;
   readonly scale: number;

@@ -40,6 +40,11 @@ export function pointOf(placed: PlacedLamp, index: number): LampPoint {
   if (definition.kind === 'rectangle') {
     position.addScaledVector(placed.u, 2 * a - 1).addScaledVector(placed.v, 2 * b - 1);
     normal.copy(placed.normal);
+  } else if (definition.kind === 'disc') {
+    const [x, y] = discOf(2 * a - 1, 2 * b - 1);
+    const [right, up] = axesOf(placed.normal, 0, 0, 0);
+    position.addScaledVector(right, x * placed.radius).addScaledVector(up, y * placed.radius);
+    normal.copy(placed.normal);
   } else if (definition.kind === 'sphere') {
     const z = 1 - 2 * a;
     const [across, turn] = [Math.sqrt(1 - z * z), 2 * Math.PI * b];
@@ -56,6 +61,15 @@ export function skyPointOf(sky: Sky, turn: Matrix4, index: number): LampPoint {
   const { direction, color } = sky.sampleOf(...squareOf(index));
   const front = direction.negate().applyMatrix4(turn);
   return { position: new three.Vector3(), color, normal: new three.Vector3(), bothSides: true, axes: axesOf(front, index, 0, 0) };
+}
+
+/** Takes a square round the origin to a disc so that areas keep their ratios (P. Shirley, K. Chiu, A Low Distortion Map Between Disk and Square, 1997). */
+function discOf(x: number, y: number): [number, number] {
+  if (x === 0 && y === 0) return [0, 0];
+  const isWide = Math.abs(x) > Math.abs(y);
+  const angle = (Math.PI / 4) * (isWide ? y / x : 2 - x / y);
+  const radius = isWide ? x : y;
+  return [radius * Math.cos(angle), radius * Math.sin(angle)];
 }
 
 /** The point of a number in the unit square. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import lamps from '../../../../shaders/direct_light.glsl';
+import gloss from '../../../../shaders/direct_light_gloss.glsl';
 import loop from '../../../../shaders/direct_light_loop.glsl';
 import sky from '../../../../shaders/direct_light_sky.glsl';
 import { three } from './kit.js';
@@ -18,6 +19,6 @@ export function installLampChunks(): void {
   const replaced = ShaderChunk.lights_fragment_begin.replace(LOOKUP, (own) => `${loop}\n${own}\n}`);
   if (replaced === ShaderChunk.lights_fragment_begin) throw new Error('the shader of spot lights is not that of three.js 0.187');
   ShaderChunk.lights_fragment_begin = replaced;
-  ShaderChunk.lights_pars_begin += lamps;
+  ShaderChunk.lights_pars_begin += `${lamps}\n${gloss}`;
   ShaderChunk.lights_fragment_maps += sky;
 }

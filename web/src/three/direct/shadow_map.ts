@@ -8,7 +8,7 @@ import type { Surfaces } from './surfaces.js';
 /** Draws what casts shadows, as a camera sees it. */
 type Render = (camera: Camera) => void;
 
-/** Which of a cube's faces have light of a lamp: a rectangle has none behind it, a narrow spot all before it. */
+/** Which of a cube's faces have light of a lamp: a rectangle or disc has none behind it, a narrow spot all before it. */
 const ALL_FACES = [0, 1, 2, 3, 4, 5];
 const NOT_BEHIND = [0, 1, 2, 3, 4];
 const FRONT = [4];
@@ -103,5 +103,5 @@ export class ShadowMap {
 function facesOf({ lamp: { definition } }: PlacedLamp): number[] {
   const { kind, twoSided, outerConeAngle = Math.PI / 4 } = definition;
   if (kind === 'spot') return outerConeAngle < NARROW ? FRONT : NOT_BEHIND;
-  return kind === 'rectangle' && twoSided !== true ? NOT_BEHIND : ALL_FACES;
+  return (kind === 'rectangle' || kind === 'disc') && twoSided !== true ? NOT_BEHIND : ALL_FACES;
 }
