@@ -17,10 +17,10 @@ struct LampPlan {
   LuminaireSet contained;
 };
 
-/// Divides a scene's luminaires: the client gets the `most` strongest that emit light and that a rectangle, a sphere or
-/// a punctual lamp describes. A piece of emissive surface is a rectangle when it lies in one plane, several where a
-/// texture makes parts of it shine, a sphere when it is closed and about equally far from its centre everywhere. Other
-/// shapes and the environment go to the grid.
+/// Divides a scene's luminaires: the client gets the `most` strongest that emit light and that a rectangle, a disc, a
+/// sphere or a punctual lamp describes. A piece of emissive surface that lies in one plane is a disc when it is one or
+/// a regular polygon of six or more sides, else a rectangle, several where a texture makes parts of it shine; a sphere
+/// when it is closed and about equally far from its centre everywhere. Other shapes and the environment go to the grid.
 LampPlan plan_lamps(const World& world, size_t most = 16);
 
 }  // namespace lightwell

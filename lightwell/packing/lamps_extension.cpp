@@ -12,7 +12,8 @@ namespace {
 
 using Kind = ClientLamp::Kind;
 
-constexpr std::array<std::pair<Kind, const char*>, 5> kinds = {{{Kind::rectangle, "rectangle"},
+constexpr std::array<std::pair<Kind, const char*>, 6> kinds = {{{Kind::rectangle, "rectangle"},
+                                                                {Kind::disc, "disc"},
                                                                 {Kind::sphere, "sphere"},
                                                                 {Kind::point, "point"},
                                                                 {Kind::spot, "spot"},
@@ -33,7 +34,9 @@ std::optional<Kind> kind_of(std::string_view name) {
 // Which fields a lamp of each kind has.
 bool has_center(Kind kind) { return kind != Kind::sun; }
 bool has_normal(Kind kind) { return kind != Kind::point && kind != Kind::sphere; }
-bool is_surface(Kind kind) { return kind == Kind::rectangle || kind == Kind::sphere; }
+bool is_flat(Kind kind) { return kind == Kind::rectangle || kind == Kind::disc; }
+bool is_round(Kind kind) { return kind == Kind::disc || kind == Kind::sphere; }
+bool is_surface(Kind kind) { return is_flat(kind) || is_round(kind); }
 
 Json lamp_json(const ClientLamp& lamp) {
   Json json{{"kind", name_of(lamp.kind)}};
@@ -44,9 +47,9 @@ Json lamp_json(const ClientLamp& lamp) {
   if (lamp.kind == Kind::rectangle) {
     json["u"] = to_json(lamp.half_u);
     json["v"] = to_json(lamp.half_v);
-    if (lamp.two_sided) json["twoSided"] = true;
   }
-  if (lamp.kind == Kind::sphere) json["radius"] = to_json(lamp.radius);
+  if (is_flat(lamp.kind) && lamp.two_sided) json["twoSided"] = true;
+  if (is_round(lamp.kind)) json["radius"] = to_json(lamp.radius);
   if (is_surface(lamp.kind))
     json["radiance"] = to_json(lamp.radiance);
   else
@@ -78,9 +81,9 @@ Result<ClientLamp> read_lamp(const Json& json, const std::string& name) {
   if (lamp.kind == Kind::rectangle) {
     lamp.half_u = reader.vector("u");
     lamp.half_v = reader.vector("v");
-    lamp.two_sided = reader.flag("twoSided");
   }
-  if (lamp.kind == Kind::sphere) lamp.radius = reader.real("radius");
+  if (is_flat(lamp.kind)) lamp.two_sided = reader.flag("twoSided");
+  if (is_round(lamp.kind)) lamp.radius = reader.real("radius");
   (is_surface(lamp.kind) ? lamp.radiance : lamp.intensity) =
       reader.vector(is_surface(lamp.kind) ? "radiance" : "intensity");
   if (reader.has("range")) lamp.range = reader.real("range");

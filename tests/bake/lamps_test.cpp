@@ -96,6 +96,58 @@ TEST(PlanLamps, FindsARectangleHoweverItIsCutAndTurned) {
   }
 }
 
+// A regular polygon of radius 1 round the origin, facing +z, from its middle or as a ring with a hole.
+Mesh polygon(uint32_t sides, float hole = 0) {
+  Mesh mesh;
+  for (uint32_t i = 0; i < sides; i++) {
+    const float angle = 2 * pi * static_cast<float>(i) / static_cast<float>(sides);
+    const Vec3f corner{{std::cos(angle), std::sin(angle), 0}};
+    mesh.positions.insert(mesh.positions.end(), {corner * hole, corner});
+  }
+  for (uint32_t i = 0; i < 2 * sides; i += 2) {
+    const uint32_t next = (i + 2) % (2 * sides);
+    mesh.faces.push_back({i, i + 1, next + 1});
+    if (hole > 0) mesh.faces.push_back({i, next + 1, next});
+  }
+  return mesh;
+}
+
+// Its area, and so its power, is the surface's, however many sides that has.
+TEST(PlanLamps, FindsADisc) {
+  const Transform placed = Transform::translation({{1, 2, 3}}) *
+                           Transform::rotation({{std::sqrt(0.5f), 0, 0, std::sqrt(0.5f)}}) *
+                           Transform::scaling({{0.3, 0.3, 0.3}});
+  for (const uint32_t sides : {6u, 8u, 32u}) {
+    Scene scene;
+    add(scene, polygon(sides), emitter({{4, 2, 1}}), placed);
+    scene.materials.back().double_sided = sides == 8;
+    const LampPlan lamps = plan(scene);
+    ASSERT_EQ(lamps.client.size(), 1u);
+    const ClientLamp& lamp = lamps.client[0];
+    EXPECT_EQ(lamp.kind, ClientLamp::Kind::disc);
+    EXPECT_LT(length(lamp.center - Vec3f{{1, 2, 3}}), 1e-5f);
+    EXPECT_LT(length(lamp.normal - Vec3f{{0, -1, 0}}), 1e-5f);
+    const float n = static_cast<float>(sides), area = 0.09f * n / 2 * std::sin(2 * pi / n);
+    // Single precision.
+    EXPECT_NEAR(pi * lamp.radius * lamp.radius, area, 1e-5f);
+    EXPECT_LT(length(lamp.radiance - Vec3f{{4, 2, 1}}), 1e-4f);
+    EXPECT_EQ(lamp.two_sided, sides == 8);
+    EXPECT_NEAR(lamp.power, 7.0f / 3 * pi * area * (lamp.two_sided ? 2 : 1), 1e-4f);
+  }
+}
+
+// Squares, pentagons, ellipses and rings are rectangles of the same area.
+TEST(PlanLamps, TakesOnlyDiscsForDiscs) {
+  Scene scene;
+  add(scene, polygon(4), emitter({{1, 1, 1}}));
+  add(scene, polygon(5), emitter({{1, 1, 1}}));
+  add(scene, polygon(32), emitter({{1, 1, 1}}), Transform::scaling({{1, 0.9, 1}}));
+  add(scene, polygon(32, 0.2f), emitter({{1, 1, 1}}));
+  const LampPlan lamps = plan(scene);
+  ASSERT_EQ(lamps.client.size(), 4u);
+  for (const ClientLamp& lamp : lamps.client) EXPECT_EQ(lamp.kind, ClientLamp::Kind::rectangle);
+}
+
 // A node that mirrors turns the winding of its faces, not the side that shines.
 TEST(PlanLamps, AMirroredLampShinesToTheSameSide) {
   Scene scene;

@@ -6,6 +6,7 @@ import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { launch } from './browser.mjs';
+import { partsOfDisc, partsOfRectangle, partsOfSphere, summed, unit } from './lamp_parts.mjs';
 import { forAllTests } from './lifetime.mjs';
 import { bake, BIN, temporaryFolder } from './packs.mjs';
 import { room, sphere, writeScene } from './scenes.mjs';
@@ -15,45 +16,14 @@ import { complete } from './view.mjs';
 const folder = temporaryFolder();
 const browser = await forAllTests(launch());
 
-const subtract = (a, b) => a.map((x, i) => x - b[i]);
-const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
-const length = (a) => Math.sqrt(dot(a, a));
-
-/** Irradiance by sums over small parts of a surface of radiance 1; each part is [place, normal, area]. */
-function summed(parts, place, normal) {
-  return parts.reduce((sum, [at, facing, area]) => {
-    const way = subtract(at, place);
-    const distance = length(way);
-    const cosines = Math.max(0, dot(way, normal)) * Math.max(0, -dot(way, facing));
-    return sum + (cosines * area) / distance ** 4;
-  }, 0);
-}
-
-/** Parts of a rectangle in a plane of one y, which shines down. */
-function partsOfRectangle([x0, x1], y, [z0, z1], steps = 300) {
-  const area = ((x1 - x0) * (z1 - z0)) / steps ** 2;
-  const along = (a, b, i) => a + ((b - a) * (i + 0.5)) / steps;
-  return Array.from({ length: steps ** 2 }, (_, i) => [[along(x0, x1, i % steps), y, along(z0, z1, Math.floor(i / steps))], [0, -1, 0], area]);
-}
-
-function partsOfSphere(center, radius, steps = 400) {
-  return Array.from({ length: steps ** 2 }, (_, i) => {
-    const z = -1 + (2 * ((i % steps) + 0.5)) / steps;
-    const turn = (2 * Math.PI * (Math.floor(i / steps) + 0.5)) / steps;
-    const across = Math.sqrt(1 - z * z);
-    const facing = [across * Math.cos(turn), across * Math.sin(turn), z];
-    return [center.map((c, axis) => c + radius * facing[axis]), facing, (4 * Math.PI * radius ** 2) / steps ** 2];
-  });
-}
-
-const unit = (a) => a.map((x) => x / length(a));
 const RECTANGLE = { kind: 'rectangle', center: [0, 1, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.3], radiance: [1, 1, 1] };
 const SUN = { kind: 'sun', normal: [0, -1, 0], intensity: [1, 1, 1] };
+const DISC = { kind: 'disc', center: [0, 1, 0], normal: [0, -1, 0], radius: 0.4, radiance: [1, 1, 1] };
 const SPHERE = { kind: 'sphere', center: [0, 1, 0], radius: 0.4, radiance: [1, 1, 1] };
-/** Of the sums above, and of floats in a shader; the aim is half a percent. */
+/** Of the sums, and of floats in a shader; the aim is half a percent. */
 const EXACT = 2e-3;
 
-test('a rectangle and a sphere give the irradiance of their whole surface, above the horizon and half below it', async (t) => {
+test('a rectangle, a disc and a sphere give the irradiance of their whole surface, above the horizon and half below it', async (t) => {
   const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.irradiance);
   const measured = (...values) => page.evaluate((all) => irradiance(...all), values);
@@ -63,18 +33,41 @@ test('a rectangle and a sphere give the irradiance of their whole surface, above
     [[0.4, 0.3, 0], unit([1, 0.3, 0])],
     [[1.2, 0.9, 0.1], unit([-1, 0, 0])],
   ];
-  for (const [lamp, parts] of [[RECTANGLE, partsOfRectangle([-0.5, 0.5], 1, [-0.3, 0.3])], [SPHERE, partsOfSphere([0, 1, 0], 0.4)]])
-    for (const [place, normal] of places) {
+  // Below a disc's middle, at its rim, near it and far away.
+  const placesOfDisc = [
+    [[0, 0.3, 0], unit([1, 0, 0])],
+    [[1e-4, 0.3, 0], unit([1, 0.1, 0.3])],
+    [[0.4, 0.9, 0], [0, 1, 0]],
+    [[0.36, 0.95, 0.1], unit([0.3, 1, 0])],
+    [[0.5, 0.98, 0], unit([-1, 0.1, 0])],
+    [[0.2, 0.6, 0.1], unit([-0.2, 0.1, 0.9])],
+    [[1, -8, 0], [0, 1, 0]],
+  ];
+  const cases = [
+    [RECTANGLE, partsOfRectangle([-0.5, 0.5], 1, [-0.3, 0.3]), places],
+    [DISC, partsOfDisc([0, 1, 0], 0.4), [...places, ...placesOfDisc]],
+    [SPHERE, partsOfSphere([0, 1, 0], 0.4), places],
+  ];
+  for (const [lamp, parts, all] of cases)
+    for (const [place, normal] of all) {
       const [value, expected] = [await measured(lamp, place, normal), summed(parts, place, normal)];
       assert.ok(Math.abs(value - expected) <= EXACT * expected, `${lamp.kind} at ${place}: ${value} instead of ${expected}`);
     }
-  assert.equal(await measured(RECTANGLE, [0, 1.5, 0], [0, -1, 0]), 0, 'behind a rectangle');
-  const above = await measured({ ...RECTANGLE, twoSided: true }, [0, 2, 0], [0, -1, 0]);
-  assert.ok(Math.abs(above - (await measured(RECTANGLE, [0, 0, 0], [0, 1, 0]))) < EXACT * above, 'both sides are alike');
+  for (const lamp of [RECTANGLE, DISC]) {
+    assert.equal(await measured(lamp, [0, 1.5, 0], [0, -1, 0]), 0, `behind a ${lamp.kind}`);
+    const above = await measured({ ...lamp, twoSided: true }, [0, 2, 0], [0, -1, 0]);
+    assert.ok(Math.abs(above - (await measured(lamp, [0, 0, 0], [0, 1, 0]))) < EXACT * above, `both sides of a ${lamp.kind} are alike`);
+  }
   const sun = await measured(SUN, [0, 0, 0], unit([0, 1, 1]));
   assert.ok(Math.abs(sun - Math.SQRT1_2) < EXACT * sun, `a sun: ${sun}`);
   assert.deepEqual(errors, []);
 });
+
+/** The share of a disc of radius 0.5 at y = 2 that a half-plane at y = 1 over x < 0 leaves to a place of the floor. */
+function shareOfDiscBehindEdge(x) {
+  const whole = partsOfDisc([0, 2, 0], 0.5, 200);
+  return summed(whole.filter(([at]) => at[0] >= -x), [x, 0, 0], [0, 1, 0]) / summed(whole, [x, 0, 0], [0, 1, 0]);
+}
 
 /** The share of a square lamp of half side 0.5 at y = 2 that a half-plane at y = 1 over x < 0 leaves to a place of the floor. */
 function shareBehindEdge(x) {
@@ -100,18 +93,20 @@ test('the shadow of a sun has a sharp edge', async (t) => {
   assert.deepEqual(errors, []);
 });
 
-test('the penumbra of a square lamp behind an edge is that of the closed form', async (t) => {
+test('the penumbra of a square lamp behind an edge is that of the closed form, that of a disc the sum over it', async (t) => {
   const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.penumbra);
-  const lamp = { kind: 'rectangle', center: [0, 2, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.5], radiance: [1, 1, 1] };
-  for (const [samples, [mostError, mostBias]] of Object.entries(PENUMBRA)) {
-    const { shares } = await page.evaluate((values) => penumbra(...values), [lamp, 0.48, Number(samples)]);
-    const off = shares.map((share, i) => share - shareBehindEdge(-0.48 + (0.96 * (i + 0.5)) / shares.length));
-    const error = Math.sqrt(off.reduce((sum, x) => sum + x * x, 0) / off.length);
-    const bias = off.reduce((sum, x) => sum + x, 0) / off.length;
-    t.diagnostic(`${samples} points: error ${error.toFixed(4)}, bias ${bias.toFixed(4)}`);
-    assert.ok(error < mostError && Math.abs(bias) < mostBias, `${samples} points: error ${error}, bias ${bias}`);
-  }
+  const square = { kind: 'rectangle', center: [0, 2, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.5], radiance: [1, 1, 1] };
+  const disc = { ...DISC, center: [0, 2, 0], radius: 0.5 };
+  for (const [lamp, shareAt] of [[square, shareBehindEdge], [disc, shareOfDiscBehindEdge]])
+    for (const [samples, [mostError, mostBias]] of Object.entries(PENUMBRA)) {
+      const { shares } = await page.evaluate((values) => penumbra(...values), [lamp, 0.48, Number(samples)]);
+      const off = shares.map((share, i) => share - shareAt(-0.48 + (0.96 * (i + 0.5)) / shares.length));
+      const error = Math.sqrt(off.reduce((sum, x) => sum + x * x, 0) / off.length);
+      const bias = off.reduce((sum, x) => sum + x, 0) / off.length;
+      t.diagnostic(`${lamp.kind}, ${samples} points: error ${error.toFixed(4)}, bias ${bias.toFixed(4)}`);
+      assert.ok(error < mostError && Math.abs(bias) < mostBias, `${lamp.kind}, ${samples} points: error ${error}, bias ${bias}`);
+    }
   assert.deepEqual(errors, []);
 });
 
@@ -207,7 +202,7 @@ const SPOT = { ...POINT, kind: 'spot', innerConeAngle: 0.1, outerConeAngle: 0.5 
 test('lamps follow the scale of their pack, shadows and all', async (t) => {
   const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.scaled);
-  for (const lamp of [RECTANGLE, SPHERE, POINT, SPOT].map((definition) => ({ ...definition, center: [0, 2, 0] }))) {
+  for (const lamp of [RECTANGLE, DISC, SPHERE, POINT, SPOT].map((definition) => ({ ...definition, center: [0, 2, 0] }))) {
     const [whole, half] = await page.evaluate((of) => [scaled(of, 1), scaled(of, 0.5)], lamp);
     assert.ok(Math.max(...whole) > 0.05, `${lamp.kind}: ${whole}`);
     // The range of a lamp's map is the scene's, so that depths are rounded otherwise at an edge.

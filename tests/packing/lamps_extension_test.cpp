@@ -16,20 +16,23 @@ Vec3f any_vector(Random& random) {
   return v;
 }
 
+bool is_flat(Kind kind) { return kind == Kind::rectangle || kind == Kind::disc; }
+bool is_round(Kind kind) { return kind == Kind::disc || kind == Kind::sphere; }
+
 // A lamp that has what its kind has and nothing else.
 ClientLamp any_lamp(Random& random) {
   ClientLamp lamp;
-  lamp.kind = static_cast<Kind>(random.below(5));
+  lamp.kind = static_cast<Kind>(random.below(6));
   if (random.below(2)) lamp.name = "lamp \"" + std::to_string(random.below(99)) + "\"";
   if (lamp.kind != Kind::sun) lamp.center = any_vector(random);
   if (lamp.kind != Kind::point && lamp.kind != Kind::sphere) lamp.normal = normalized(any_vector(random));
   if (lamp.kind == Kind::rectangle) {
     lamp.half_u = any_vector(random);
     lamp.half_v = any_vector(random);
-    lamp.two_sided = random.below(2);
   }
-  if (lamp.kind == Kind::sphere) lamp.radius = random.uniform();
-  (lamp.kind == Kind::rectangle || lamp.kind == Kind::sphere ? lamp.radiance : lamp.intensity) = any_vector(random);
+  if (is_flat(lamp.kind)) lamp.two_sided = random.below(2);
+  if (is_round(lamp.kind)) lamp.radius = random.uniform();
+  (is_flat(lamp.kind) || is_round(lamp.kind) ? lamp.radiance : lamp.intensity) = any_vector(random);
   if (random.below(2)) lamp.range = 0.1f + random.uniform();
   if (lamp.kind == Kind::spot) {
     lamp.inner_cone = random.uniform() / 2;
@@ -37,7 +40,7 @@ ClientLamp any_lamp(Random& random) {
   }
   lamp.luminaire.kind = LuminaireId::Kind::lamp;
   if (random.below(2)) lamp.luminaire.node = static_cast<int>(random.below(1000));
-  if (lamp.kind == Kind::rectangle || lamp.kind == Kind::sphere) {
+  if (is_flat(lamp.kind) || is_round(lamp.kind)) {
     lamp.luminaire.kind = LuminaireId::Kind::surface;
     if (random.below(2)) lamp.luminaire.copy = static_cast<int>(random.below(1000));
     if (random.below(2)) lamp.luminaire.primitive = static_cast<int>(random.below(1000));
