@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // gloss_lobe.mjs: fits the lobe of shaders/direct_light_gloss.glsl to three.js's GGX; prints the polynomial that stands there, and how far the lobe is
-// from GGX: half of the integral of the difference of both, each of which has the integral 1, over angles and roughnesses.
+// from GGX in percent: half of the integral of the difference of both, each of which has the integral 1, by roughness and angle; in the mean of all that was
+// fitted; and in the mean of polynomials of the second degree, and of lobes that are each fitted alone, as by a table without end.
 import { pathToFileURL } from 'node:url';
 
 /** A lobe is fitted at so many points a side, twice: drawn as GGX has its facets, and as a cosine has directions. */
@@ -9,8 +10,10 @@ const POINTS = 16;
 const ROUGHNESSES = [0.045, ...Array.from({ length: 19 }, (_, i) => 0.1 + 0.05 * i)];
 /** Of the angle to the viewer: closer to grazing ones, where lobes change most. */
 const COSINES = Array.from({ length: 14 }, (_, i) => 0.03 + 0.97 * (i / 13) ** 1.5);
-/** Powers of roughness^2 and of what grows towards grazing angles. The first one is 1: at no roughness the lobe is a mirror's. */
-const POWERS = [0, 1, 2, 3].flatMap((i) => [0, 1, 2, 3].filter((j) => i + j <= 3).map((j) => [i, j]));
+/** Powers of roughness^2 and of what grows towards grazing angles, but for 1: at no roughness the lobe is a mirror's. */
+const powersTo = (degree) =>
+  Array.from({ length: (degree + 1) ** 2 - 1 }, (_, i) => [Math.floor((i + 1) / (degree + 1)), (i + 1) % (degree + 1)]).filter(([i, j]) => i + j <= degree);
+const POWERS = powersTo(3);
 /** Errors count in parts of themselves and this, so that lobes that a cosine can be, small angles, become as right as they can. */
 const ENOUGH = 0.001;
 
@@ -46,7 +49,7 @@ function visibleFacet(alpha, viewer, [u, v]) {
 }
 
 /** Directions, each with GGX's normalised value, and the density with which it is drawn. */
-function pointsOf(roughness, cosine, points = POINTS) {
+function pointsOf(roughness, cosine, points) {
   const viewer = [Math.sqrt(1 - cosine ** 2), 0, cosine];
   const alpha = roughness ** 2;
   const seen = 1 / (0.5 + 0.5 * Math.sqrt(1 + (alpha * viewer[0] / cosine) ** 2));
@@ -70,10 +73,10 @@ function pointsOf(roughness, cosine, points = POINTS) {
 }
 
 /** What the polynomial is of, at a roughness and a cosine. */
-function placeOf(roughness, cosine, points) {
+function placeOf(roughness, cosine, { points = POINTS, of = POWERS } = {}) {
   const r = roughness ** 2;
   const height = Math.sqrt(cosine ** 2 + 5 * r * r);
-  const powers = POWERS.map(([i, j]) => r ** i * (1 - cosine / height) ** j);
+  const powers = of.map(([i, j]) => r ** i * (1 - cosine / height) ** j);
   return { r, lean: Math.sqrt(1 - cosine ** 2) / height, powers, points: pointsOf(roughness, cosine, points) };
 }
 
@@ -83,7 +86,7 @@ function lobeOf({ r, lean }, [x, y, z]) {
   return [2 * r * (1 + b * b) * x, b, 2 * r * z];
 }
 
-const factorsAt = ({ powers }, fit) => fit.map((of) => of.reduce((sum, x, i) => sum + x * powers[i], 0));
+const factorsAt = ({ powers }, fit) => fit.map((of) => of.reduce((sum, x, i) => sum + x * powers[i], 1));
 
 /** Mean square of the difference in parts of the density. */
 const errorOf = (lobe, points) => points.reduce((sum, { to, gloss, density }) => sum + (gloss - lobeAt(lobe, to)) ** 2 / density, 0);
@@ -110,9 +113,10 @@ function solve(matrix, right) {
   return x;
 }
 
-/** The normal equations of a step from a fit; of the first powers, which stay 1, there are none. */
+/** The normal equations of a step from a fit. */
 function equationsAt(places, fit) {
-  const [terms, n] = [POWERS.length - 1, 3 * (POWERS.length - 1)];
+  const terms = fit[0].length;
+  const n = 3 * terms;
   const matrix = Array.from({ length: n }, () => new Array(n).fill(0));
   const right = new Array(n).fill(0);
   for (const place of places) {
@@ -130,9 +134,9 @@ function equationsAt(places, fit) {
       }
     }
     for (let i = 0; i < n; i++) {
-      const [k, at] = [Math.floor(i / terms), 1 + (i % terms)];
-      right[i] += outer[k] * place.powers[at];
-      for (let j = 0; j < n; j++) matrix[i][j] += inner[k][Math.floor(j / terms)] * place.powers[at] * place.powers[1 + (j % terms)];
+      const [k, power] = [Math.floor(i / terms), place.powers[i % terms]];
+      right[i] += outer[k] * power;
+      for (let j = 0; j < n; j++) matrix[i][j] += inner[k][Math.floor(j / terms)] * power * place.powers[j % terms];
     }
   }
   return { matrix, right };
@@ -140,10 +144,11 @@ function equationsAt(places, fit) {
 
 const STEP = 1e-4;
 
-/** Fits all lobes at once by Levenberg's and Marquardt's method: for each of the three factors a number for each of the powers. */
-export function fitLobe() {
-  const places = ROUGHNESSES.flatMap((roughness) => COSINES.map((cosine) => placeOf(roughness, cosine)));
-  let fit = [0, 1, 2].map(() => POWERS.map((_, i) => Number(i === 0)));
+const everywhere = (of) => ROUGHNESSES.flatMap((roughness) => COSINES.map((cosine) => placeOf(roughness, cosine, { of })));
+
+/** Fits the lobes of all places at once by Levenberg's and Marquardt's method: for each of the three factors a number for each of the powers. */
+export function fitLobe(places = everywhere(POWERS)) {
+  let fit = [0, 1, 2].map(() => places[0].powers.map(() => 0));
   let [cost, damping] = [costOf(places, fit), 1e-2];
   for (let gain = Infinity; gain > 1e-6 * places.length; ) {
     const { matrix, right } = equationsAt(places, fit);
@@ -151,7 +156,7 @@ export function fitLobe() {
     for (let trial = 0; trial < 10 && gain === 0; trial++) {
       const damped = matrix.map((row, i) => row.map((x, j) => (i === j ? x * (1 + damping) + 1e-9 : x)));
       const step = solve(damped, right);
-      const next = fit.map((of, k) => of.map((x, i) => (i === 0 ? x : x + step[k * (POWERS.length - 1) + i - 1])));
+      const next = fit.map((of, k) => of.map((x, i) => x + step[k * of.length + i]));
       const better = cost - costOf(places, next);
       if (better > 0) [fit, cost, gain] = [next, cost - better, better];
       damping *= better > 0 ? 0.2 : 5;
@@ -160,24 +165,28 @@ export function fitLobe() {
   return fit;
 }
 
-/** How far a lobe is from GGX: half of the integral of their difference. */
-export function differenceAt(fit, roughness, cosine) {
-  const place = placeOf(roughness, cosine, 64);
+/** How far a lobe is from GGX, in percent. */
+function differenceAt(place, fit) {
   const lobe = lobeOf(place, factorsAt(place, fit));
-  return place.points.reduce((sum, { to, gloss, density }) => sum + Math.abs(gloss - lobeAt(lobe, to)) / density, 0) / 2;
+  return place.points.reduce((sum, { to, gloss, density }) => sum + Math.abs(gloss - lobeAt(lobe, to)) / density, 0) * 50;
 }
 
 /** The numbers of a fit as they stand in the shader, power after power. */
-export const numbersOf = (fit) => POWERS.slice(1).map((_, i) => fit.map((of) => Number(of[i + 1].toFixed(4))));
+export const numbersOf = (fit) => POWERS.map((_, i) => fit.map((of) => Number(of[i].toFixed(4))));
 
 function print(fit) {
-  numbersOf(fit).forEach((numbers, i) => console.log(`${POWERS[i + 1]}: vec3( ${numbers.join(', ').replaceAll('-', '- ')} )`));
+  numbersOf(fit).forEach((numbers, i) => console.log(`${POWERS[i]}: vec3( ${numbers.join(', ').replaceAll('-', '- ')} )`));
   const angles = [0, 20, 40, 60, 70, 80, 85];
   console.log(`| roughness | ${angles.join(' | ')} |`);
   for (const roughness of [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1]) {
-    const differences = angles.map((angle) => (100 * differenceAt(fit, roughness, Math.cos((angle * Math.PI) / 180))).toFixed(1));
+    const differences = angles.map((angle) => differenceAt(placeOf(roughness, Math.cos((angle * Math.PI) / 180), { points: 64 }), fit).toFixed(1));
     console.log(`| ${roughness} | ${differences.join(' | ')} |`);
   }
+  const meanOf = (places, fitOf) => places.reduce((sum, place) => sum + differenceAt(place, fitOf(place)), 0) / places.length;
+  const [places, second, alone] = [POWERS, powersTo(2), [[0, 0]]].map(everywhere);
+  const ofSecond = fitLobe(second);
+  console.log(`in the mean ${meanOf(places, () => fit).toFixed(2)}, of the second degree ${meanOf(second, () => ofSecond).toFixed(2)}`);
+  console.log(`each alone ${meanOf(alone, (place) => fitLobe([place])).toFixed(2)}`);
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1]).href) print(fitLobe());

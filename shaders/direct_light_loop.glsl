@@ -59,6 +59,10 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 			vec3 radiance = directLight.color == vec3( 0.0 ) ? vec3( 0.0 ) : lamp.color * share;
 			#ifndef USE_ANISOTROPY
 				vec2 seen = getLampInGloss( lamp, geometryPosition, geometryNormal, geometryViewDir, roughness );
+				#ifdef USE_RETROREFLECTION
+					vec2 seenBack = getLampInGloss( lamp, geometryPosition, geometryNormal, reflect( - geometryViewDir, geometryNormal ), roughness );
+					seen = mix( seen, seenBack, saturate( material.retroreflectivity ) );
+				#endif
 				vec3 gloss = material.specularColorBlended * seen.x + material.specularF90 * seen.y;
 				#ifdef USE_IRIDESCENCE
 					gloss = mix( gloss, material.iridescenceFresnel * ( seen.x + seen.y ), material.iridescence );

@@ -130,6 +130,7 @@ test('materials of all kinds mirror a small sphere as they do a point', async (t
     { ...glossy, sheen: 1, sheenColor: 0x8080ff, sheenRoughness: 0.5 },
     { ...glossy, iridescence: 1, iridescenceIOR: 1.8 },
     { ...glossy, anisotropy: 0.7 },
+    { ...glossy, retroreflectivity: 0.5 },
     { ...glossy, clearcoat: 0.5, clearcoatRoughness: 0.3 },
     { ...glossy, metalness: 1, color: 0xffcc88 },
   ];

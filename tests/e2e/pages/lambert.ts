@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A pack in a <lightwell-view> whose materials reflect evenly in all directions and do not shine, as `lightwell render` shows them
-// by one part of the light: `?light=` names it as the element does.
+// by one part of the light: `?light=` names it as the element does. With `&glossy` they stay what they are.
 import { Mesh, MeshLambertMaterial, MeshStandardMaterial } from 'three';
 import '../../../web/src/element/index.js';
 import type { LightwellView } from '../../../web/src/element/lightwell_view.js';
@@ -10,11 +10,13 @@ function lambert({ color, map, side, vertexColors }: MeshStandardMaterial): Mesh
   return new MeshLambertMaterial({ color, map, side, vertexColors });
 }
 
-const light = new URLSearchParams(location.search).get('light');
+const query = new URLSearchParams(location.search);
+const light = query.get('light');
 document.body.innerHTML = `<lightwell-view src="pack.lw.glb" tone="none" light="${light}" style="position: fixed; inset: 0">`;
 const view = document.querySelector<LightwellView>('lightwell-view')!;
 view.on('load', () =>
   view.pack!.traverse((object) => {
+    if (query.has('glossy')) return;
     if (object instanceof Mesh && object.material instanceof MeshStandardMaterial) object.material = lambert(object.material);
   }),
 );
