@@ -111,6 +111,21 @@ test('the penumbra of a square lamp behind an edge is that of the closed form, t
   assert.deepEqual(errors, []);
 });
 
+/** Shares are kept in 12 bits; light is in floats. */
+const KEPT = 1 / 4095;
+
+test('a lamp at rest gives memory back, and keeps its shadow when another one needs it again', async (t) => {
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.besideAnother);
+  const { rows, samples, textures } = await page.evaluate((lamp) => besideAnother(lamp), { ...RECTANGLE, center: [0, 2, 0] });
+  assert.deepEqual(samples.map((count) => count === Infinity), [true, false, true]);
+  assert.ok(textures[1] > textures[0], `textures: ${textures}`);
+  const [before, , after] = rows;
+  assert.ok(Math.max(...before) > 0.05 && Math.min(...before) < 0.01, 'there is a shadow');
+  before.forEach((value, i) => assert.ok(Math.abs(after[i] - value) <= KEPT * Math.max(...before), `pixel ${i}: ${value} became ${after[i]}`));
+  assert.deepEqual(errors, []);
+});
+
 test('surfaces are lit on the side that is seen, be it their back', async (t) => {
   const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.fromBehind);

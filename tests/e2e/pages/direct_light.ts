@@ -151,6 +151,28 @@ export async function penumbra(definition: LampDefinition, half: number, samples
 }
 
 /**
+ * A lamp that has all its samples beside another one that is hidden, shown and hidden again: rows before and after, how many samples there are then,
+ * and how many textures.
+ */
+export async function besideAnother(definition: LampDefinition): Promise<{ rows: number[][]; samples: number[]; textures: number[] }> {
+  const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
+  const lit = light([definition, { ...definition, center: [0.3, 2, 0] }], objects);
+  const camera = rowCamera(0.48);
+  const [, other] = lit.direct.lamps;
+  const result = { rows: [] as number[][], samples: [] as number[], textures: [] as number[] };
+  other!.visible = false;
+  await settle(lit, camera, 128, Infinity);
+  for (const visible of [false, true, false]) {
+    other!.visible = visible;
+    result.rows.push(rowOf(lit.scene, camera, 128));
+    result.samples.push(lit.direct.samples);
+    result.textures.push(renderer.info.memory.textures);
+  }
+  lit.direct.dispose();
+  return result;
+}
+
+/**
  * A sky of radiance 1 over a white floor with a wall along z, 1 high: the irradiance of each pixel of a row from the wall on, `far` long. `open`:
  * whether the grid has the sky as if there were no wall.
  */
@@ -216,4 +238,4 @@ export function ownObject(definition: LampDefinition): number[] {
   return values;
 }
 
-Object.assign(globalThis, { skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, mirrored, penumbra, fromBehind });
+Object.assign(globalThis, { besideAnother, skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, mirrored, penumbra, fromBehind });

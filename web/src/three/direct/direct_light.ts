@@ -104,6 +104,7 @@ export class DirectLight {
   /** The two views before, to tell cameras that take turns. */
   #views: string[] = [];
   #drawing = false;
+  #resting = false;
   #paused = false;
   #batch = 1;
 
@@ -256,7 +257,7 @@ export class DirectLight {
         if (isNew) this.#skyInGrids.forget();
         if (shadow.form === null || isNew) this.#mapsTime = performance.now();
         if (shadow.form === null || isNew || shadow.count < 0) Object.assign(shadow, { form: now, count: 0 });
-        this.#scratchMap(shadow.lamp);
+        if (shadow.count < this.#enough(shadow)) this.#scratchMap(shadow.lamp);
         continue;
       }
       if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
@@ -264,7 +265,7 @@ export class DirectLight {
         this.#mapsTime = performance.now();
         Object.assign(shadow, { form: now, count: -1 });
       }
-      if (this.#enough(shadow) > 0) this.#scratchMap(shadow.lamp);
+      if (shadow.count < this.#enough(shadow)) this.#scratchMap(shadow.lamp);
       if (shadow.count >= 0) continue;
       this.#drawSurfaces();
       this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
@@ -274,22 +275,43 @@ export class DirectLight {
     if (shining.some((shadow) => isSky(shadow.lamp) && showsSky(shadow)) && this.#drawSkyInGrids(camera)) this.#showStale = true;
     if (this.#showStale) this.#shares.show(renderer);
     this.#showStale = false;
+    if (this.samples === Infinity) this.#rest();
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
     else if (!this.#paused && this.samples < Infinity) this.#task.request();
   }
 
   /** Says whether it was not there. */
   #drawSkyInGrids(camera: Camera): boolean {
+    if (this.#skyInGrids.has(this.#sky.replaced)) return false;
     this.#drawSurfaces();
-    const { renderer } = this.#surroundings;
     // The lamp's own colour may be another (LightGroups).
     const factors = this.lamps.find(isSky)!.userData.inGrids;
-    const irradiance = () => this.#sky.irradiance(camera.matrixWorldInverse, factors);
-    return this.#skyInGrids.draw(renderer, this.#shares, camera, this.#sky.replaced, irradiance);
+    const irradiance = this.#sky.irradiance(camera.matrixWorldInverse, factors);
+    this.#skyInGrids.draw(this.#surroundings.renderer, this.#shares, camera, this.#sky.replaced, irradiance);
+    return true;
+  }
+
+  /** With all samples nothing but the picture and the kept maps is needed any more: the memory of all else is given back. */
+  #rest(): void {
+    // Without samples the next view is soon another.
+    if (this.#resting || this.#kind !== 'soft') return;
+    this.#resting = this.#surfacesStale = true;
+    this.#shares.rest();
+    for (const map of this.#scratch.values()) map.dispose();
+    this.#scratch.clear();
+    for (const shadow of this.#shadows) if (shadow.count < this.#enough(shadow)) shadow.count = -1;
+  }
+
+  /** Something has changed, and not all: lamps that have their samples keep their shares. */
+  #wake(): void {
+    this.#resting = false;
+    const kept = this.#shadows.flatMap(({ lamp, count }, share) => (count < 0 ? [] : isSky(lamp) ? [share, share + 1, share + 2] : [share]));
+    this.#shares.recall(this.#surroundings.renderer, kept);
   }
 
   /** What the present view shows, unless that is drawn. */
   #drawSurfaces(): void {
+    if (this.#resting) this.#wake();
     if (this.#surfacesStale) this.#shares.drawSurfaces(this.#surfaces, this.#root!, this.#camera!);
     this.#surfacesStale = false;
   }

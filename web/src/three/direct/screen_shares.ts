@@ -4,6 +4,7 @@ import seenSurface from '../../../../shaders/seen_surface.glsl';
 import lookupShader from '../../../../shaders/shadow_lookup.glsl';
 import sharesShader from '../../../../shaders/shadow_shares.glsl';
 import { createScreen, FullScreen } from './full_screen.js';
+import { KeptShares } from './kept_shares.js';
 import { three } from './kit.js';
 import type { ShadowMap } from './shadow_map.js';
 import type { Surfaces } from './surfaces.js';
@@ -33,6 +34,7 @@ export class ScreenShares {
   readonly #lookups = new Map<string, FullScreen>();
   readonly #shares: FullScreen;
   readonly #table: FullScreen;
+  readonly #kept: KeptShares;
   readonly #viewport: Vector4 = new three.Vector4();
   readonly #place: Matrix4 = new three.Matrix4();
   readonly #projection: Matrix4 = new three.Matrix4();
@@ -62,6 +64,7 @@ export class ScreenShares {
       start: { value: null },
     });
     this.#table = new FullScreen(this.#screen, COPY, { table: { value: null } });
+    this.#kept = new KeptShares(this.#screen);
   }
 
   /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
@@ -96,6 +99,17 @@ export class ScreenShares {
     }
     this.picture.setSize(Math.max(this.tableWidth, this.#layers * width), height + 1);
     return true;
+  }
+
+  /** Gives the memory back that only more samples need, until `recall`. */
+  rest(): void {
+    for (const target of [this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
+  }
+
+  /** Takes the memory again; the sums of some shares are made from the picture, those of others are to begin anew, and so is what is seen. */
+  recall(renderer: WebGLRenderer, shares: number[]): void {
+    for (const target of [this.#surfaces, this.#spare, ...this.#sums]) renderer.initRenderTarget(target);
+    for (const share of shares) this.#kept.draw(renderer, this.#sums[share]!, this.picture, share, SUMS);
   }
 
   /** Draws what is seen anew. */
@@ -154,7 +168,7 @@ export class ScreenShares {
   }
 
   dispose(): void {
-    for (const pass of [this.#shares, this.#table, ...this.#lookups.values()]) pass.dispose();
+    for (const pass of [this.#shares, this.#table, this.#kept, ...this.#lookups.values()]) pass.dispose();
     for (const target of [this.picture, this.ready, this.#surfaces, this.#spare, ...this.#sums]) target.dispose();
     this.#screen.dispose();
   }

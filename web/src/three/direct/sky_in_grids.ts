@@ -7,6 +7,11 @@ import { createScreen, FullScreen } from './full_screen.js';
 import { three } from './kit.js';
 import type { ScreenShares } from './screen_shares.js';
 
+/** In pairs: with the sky's own light and without it. */
+type Grids = [LightwellLight, LightwellLight][];
+
+const texelsOf = (grids: Grids) => grids.flatMap((pair) => pair.map(({ newest }) => newest.image.data));
+
 /** Which share of the sky's light grids have at every pixel of a view: with that of the sky as a lamp it tells what their cells blur. */
 export class SkyInGrids {
   readonly #screen: BufferGeometry = createScreen();
@@ -27,14 +32,17 @@ export class SkyInGrids {
     this.#drawn = [];
   }
 
+  /** Whether the shares of grids are ready as these are now. */
+  has(grids: Grids): boolean {
+    const texels = texelsOf(grids);
+    return texels.length === this.#drawn.length && texels.every((of, i) => of === this.#drawn[i]);
+  }
+
   /**
-   * Makes the shares ready, unless they are: of grids in pairs, with the sky's own light and without it. `sky`: of each colour its irradiance
-   * where nothing hides it, as the grids have it, by normals in the camera's space. Says whether it drew.
+   * Makes the shares of grids ready. `sky`: of each colour its irradiance where nothing hides it, as the grids have it, by normals in the camera's space.
    */
-  draw(renderer: WebGLRenderer, shares: ScreenShares, camera: Camera, grids: [LightwellLight, LightwellLight][], sky: () => Matrix4[]): boolean {
-    const texels = grids.flatMap((pair) => pair.map(({ newest }) => newest.image.data));
-    if (texels.length === this.#drawn.length && texels.every((of, i) => of === this.#drawn[i])) return false;
-    this.#drawn = texels;
+  draw(renderer: WebGLRenderer, shares: ScreenShares, camera: Camera, grids: Grids, sky: Matrix4[]): void {
+    this.#drawn = texelsOf(grids);
     const { autoClear } = renderer;
     renderer.autoClear = false;
     grids.forEach(([{ newest, boundingBox, resolution }, without], i) => {
@@ -45,12 +53,11 @@ export class SkyInGrids {
         probesMax: [boundingBox.max, boundingBox.max],
         probesResolution: [resolution, resolution],
         place: camera.matrixWorld,
-        sky: sky(),
+        sky,
         first: i === 0,
       });
     });
     renderer.autoClear = autoClear;
-    return true;
   }
 
   dispose(): void {
