@@ -24,9 +24,10 @@ vec3 unpackShading( float packed ) {
 
 }
 
-vec3 positionOf( float distance ) {
+// What is seen at a place of the picture, in pixels, in the camera's space.
+vec3 positionOf( vec2 place, float distance ) {
 
-	vec2 at = 2.0 * gl_FragCoord.xy / vec2( textureSize( surfaces, 0 ) ) - 1.0;
+	vec2 at = 2.0 * place / vec2( textureSize( surfaces, 0 ) ) - 1.0;
 	float w = projection[ 3 ][ 3 ] - projection[ 2 ][ 3 ] * distance;
 	vec2 xy = at * w + vec2( projection[ 2 ].xy ) * distance - projection[ 3 ].xy;
 	return vec3( xy / vec2( projection[ 0 ][ 0 ], projection[ 1 ][ 1 ] ), - distance );

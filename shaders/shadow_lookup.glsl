@@ -112,7 +112,7 @@ void main() {
 	if ( surface.b == 0.0 ) { result = vec4( before, 0.0, 0.0 ); return; }
 
 	vec3 n = unpackNormal( surface.rg );
-	vec3 way = positionOf( surface.b ) - point;
+	vec3 way = positionOf( gl_FragCoord.xy, surface.b ) - point;
 	#ifdef SUN
 		vec3 direction = - vec3( axes[ 0 ][ 2 ], axes[ 1 ][ 2 ], axes[ 2 ][ 2 ] );
 		float weight = strength;

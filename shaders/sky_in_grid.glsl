@@ -14,7 +14,7 @@ void main() {
 
 	vec4 surface = texelFetch( surfaces, ivec2( gl_FragCoord.xy ), 0 );
 	vec3 normal = unpackShading( surface.a );
-	vec3 position = ( place * vec4( positionOf( surface.b ), 1.0 ) ).xyz;
+	vec3 position = ( place * vec4( positionOf( gl_FragCoord.xy, surface.b ), 1.0 ) ).xyz;
 	vec3 worldNormal = mat3( place ) * normal;
 	bool inside = isInsideLightProbeGrid( position, worldNormal, probesMin[ 0 ], probesMax[ 0 ], probesResolution[ 0 ] );
 	if ( ! first && ! inside ) discard;

@@ -31,9 +31,9 @@ type Triple = [number, number, number];
 const renderer = new WebGLRenderer();
 const bounds = new Box3(new Vector3(-2, -2, -2), new Vector3(2, 2, 2));
 /** Milliseconds of a frame, so that samples come as fast as they can. */
-const ALL_TIME = 10_000;
+export const ALL_TIME = 10_000;
 
-interface Lit {
+export interface Lit {
   direct: DirectLight;
   scene: Scene;
   /** How often a better picture could be drawn. */
@@ -57,7 +57,7 @@ function gridsOf(open: boolean): LightwellLight[] {
   });
 }
 
-function light(definitions: LampDefinition[], objects: Object3D[], grids: LightwellLight[] = []): Lit {
+export function light(definitions: LampDefinition[], objects: Object3D[], grids: LightwellLight[] = []): Lit {
   const opening = { gltf: { scene: new Group() }, meshesOf: () => [] } as unknown as Opening;
   opening.gltf.scene.userData['lightwell'] = { skyRadiance: [1, 1, 1] };
   const changed = () => void lit.changes++;
@@ -68,7 +68,7 @@ function light(definitions: LampDefinition[], objects: Object3D[], grids: Lightw
 }
 
 /** Red of a row of pixels times pi: the irradiance on white. */
-function rowOf(scene: Scene, camera: Camera, width: number): number[] {
+export function rowOf(scene: Scene, camera: Camera, width: number): number[] {
   const target = new WebGLRenderTarget(width, 1, { type: FloatType });
   renderer.setRenderTarget(target);
   renderer.render(scene, camera);
@@ -79,7 +79,7 @@ function rowOf(scene: Scene, camera: Camera, width: number): number[] {
   return Array.from({ length: width }, (_, i) => pixels[4 * i]! * Math.PI);
 }
 
-function surface(width: number, depth: number, place: Triple, towards: Triple): Mesh {
+export function surface(width: number, depth: number, place: Triple, towards: Triple): Mesh {
   const mesh = new Mesh(new PlaneGeometry(width, depth), new MeshLambertMaterial({ side: DoubleSide }));
   mesh.castShadow = mesh.receiveShadow = true;
   mesh.position.set(...place);
@@ -88,7 +88,7 @@ function surface(width: number, depth: number, place: Triple, towards: Triple): 
 }
 
 /** Looks down a row along x, from y = 0.9 to below. */
-function rowCamera(half: number): OrthographicCamera {
+export function rowCamera(half: number): OrthographicCamera {
   const camera = new OrthographicCamera(-half, half, 0.01, -0.01, 0, 2);
   camera.position.set(0, 0.9, 0);
   camera.up.set(0, 0, -1);
@@ -125,7 +125,7 @@ export function mirrored(definition: LampDefinition, place: Triple, normal: Trip
 }
 
 /** Lets so many samples of a row of pixels come. */
-async function settle(lit: Lit, camera: Camera, width: number, samples: number): Promise<void> {
+export async function settle(lit: Lit, camera: Camera, width: number, samples: number): Promise<void> {
   const { direct, scene } = lit;
   direct.setShadows('soft', ALL_TIME);
   rowOf(scene, camera, width);

@@ -208,6 +208,11 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     return this.#direct?.samples ?? Infinity;
   }
 
+  /** By how many steps that are just not seen those shadows may be off, at most; Infinity while that is not known. */
+  get shadowError(): number {
+    return this.#direct?.error ?? 0;
+  }
+
   setStrategy(strategy: Strategy): void {
     this.#connection.setStrategy(strategy);
   }

@@ -3,13 +3,11 @@ import type {
   Box3,
   BufferGeometry,
   Camera,
-  DataTexture,
   Object3D,
   Points,
   PointsMaterial,
   Sphere,
   SpotLight,
-  Vector3,
   WebGLRenderer,
 } from 'three';
 import type { DirectKit } from '../direct_kit.js';
@@ -18,11 +16,15 @@ import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
 import { aside } from './aside.js';
 import { letLampsThrough } from './casters.js';
 import { three, useKit } from './kit.js';
-import { createLamp, formOf, type Lamp, type PlacedLamp, placed, TEXELS_OF_LAMP, TEXELS_OF_SKY, texelsOf } from './lamp.js';
+import { createLamp, formOf, type Lamp, type PlacedLamp, placed } from './lamp.js';
 import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
+import { LampTable } from './lamp_table.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
+import { begin, isSettled, Rounds, type Shadow, strengthOf } from './rounds.js';
+import { middleMap, SampleMaps } from './sample_maps.js';
 import { ScreenShares } from './screen_shares.js';
-import { ShadowMap } from './shadow_map.js';
+import type { ShadowMap } from './shadow_map.js';
+import { ShadowSteps } from './shadow_steps.js';
 import { SkyInGrids } from './sky_in_grids.js';
 import { SkyLamp, type SkyOfPack } from './sky_lamp.js';
 import { signatureOf, Surfaces } from './surfaces.js';
@@ -38,29 +40,10 @@ const POINTS_OF_SKY = 512;
 const POINTS_TO_SHOW_SKY = 64;
 /** A visitor who saves data saves power, too. */
 const SAVING = 4;
-/** A picture is shown when every lamp has had so many points, and each time that they have doubled. */
-const FIRST_SHOWN = 16;
 /** Of the GPU's time in a frame, milliseconds. */
 const BUDGET = 4;
-/** Sides of the maps, in texels: of a cube's faces, and of a sun's picture. */
-const CUBE_SIZE = 512;
-const SUN_SIZE = 2048;
-/** Of the sky's pictures, whose edges none of so many shows. */
-const SKY_SIZE = 1024;
-/** Of more lamps than this the maps that are kept are half as fine. */
-const FEW_LAMPS = 4;
 /** While geometry streams in, shadows are drawn anew at most so often, in milliseconds. */
 const INTERVAL = 500;
-
-/** A lamp's shadow in the present view. */
-interface Shadow {
-  readonly lamp: Lamp;
-  /** From the lamp's middle; kept while nothing moves but the camera. */
-  readonly middle: ShadowMap;
-  form: number[] | null;
-  /** Points whose samples are in the sums: 0 when only the middle is, -1 when nothing is. */
-  count: number;
-}
 
 export interface Surroundings extends SkyOfPack {
   readonly renderer: WebGLRenderer;
@@ -84,13 +67,17 @@ export class DirectLight {
   readonly #surroundings: Surroundings;
   readonly #surfaces: Surfaces;
   readonly #shares: ScreenShares;
-  readonly #table: DataTexture;
+  readonly #table: LampTable;
   readonly #shadows: Shadow[];
-  readonly #scratch = new Map<number, ShadowMap>();
+  readonly #scratch = new SampleMaps();
   readonly #task: FrameTask;
   readonly #floats: boolean;
   readonly #sky: SkyLamp;
   readonly #skyInGrids: SkyInGrids;
+  readonly #steps: ShadowSteps;
+  readonly #rounds = new Rounds();
+  /** Of the round whose shadows are being measured. */
+  #measuring: symbol | null = null;
   #kind: Shadows = 'soft';
   #root: Object3D | null = null;
   /** Of the present view, whose surfaces are drawn when somebody asks for them. */
@@ -117,19 +104,18 @@ export class DirectLight {
     this.lamps = [...definitions, ...SkyLamp.of(surroundings)].map(createLamp);
     this.#floats = renderer.extensions.has('EXT_color_buffer_float');
     this.#surfaces = new Surfaces(renderer);
-    const width = 2 + TEXELS_OF_LAMP * this.lamps.length + TEXELS_OF_SKY;
-    this.#table = new three.DataTexture(new Float32Array(4 * width), width, 1, undefined, three.FloatType);
+    this.#table = new LampTable(this.lamps.length);
     // Each colour of the sky, the last lamp, has a share of its own, and one that its grids have.
     const hasSky = this.lamps.some(isSky);
-    this.#shares = new ScreenShares(this.lamps.length + (hasSky ? 2 : 0), hasSky, width);
+    this.#shares = new ScreenShares(this.lamps.length + (hasSky ? 2 : 0), hasSky, this.#table.width);
     this.#skyInGrids = new SkyInGrids();
-    const size = definitions.length > FEW_LAMPS ? 2 : 1;
+    this.#steps = new ShadowSteps();
     this.#shadows = this.lamps.map((lamp) => {
-      const middle = new ShadowMap(hasPicture(lamp), sizeOf(lamp) / size);
-      return { lamp, middle, form: null, count: -1 };
+      const middle = middleMap(lamp.definition, definitions.length);
+      return { lamp, middle, form: null, count: -1, off: Infinity, strength: 0 };
     });
     this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
-    this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table;
+    this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table.texture;
     this.hook = new three.Points(new three.BufferGeometry(), new three.PointsMaterial({ colorWrite: false, depthWrite: false }));
     this.hook.raycast = () => {};
     this.hook.geometry.boundingSphere = new three.Sphere();
@@ -142,8 +128,16 @@ export class DirectLight {
 
   /** How many points of each lamp that shines are in the picture, at least; Infinity when there are as many as there will be. */
   get samples(): number {
-    const open = this.#shining().filter((shadow) => shadow.count < this.#enough(shadow));
+    const open = this.#open();
     return open.length === 0 ? Infinity : Math.max(0, Math.min(...open.map(({ count }) => count)));
+  }
+
+  /**
+   * By how many steps that are just not seen the shadows in the picture may be off, at most: 1 is not seen. Infinity while that is not known, and 0
+   * where nothing is to be known.
+   */
+  get error(): number {
+    return Math.max(0, ...this.#shining().map((shadow) => (this.#enough(shadow) > 0 ? shadow.off : 0)));
   }
 
   /** `milliseconds`: of the GPU's time in a frame that samples may take. */
@@ -192,9 +186,8 @@ export class DirectLight {
     clearTimeout(this.#growing);
     this.#task.dispose();
     for (const { middle } of this.#shadows) middle.dispose();
-    for (const map of this.#scratch.values()) map.dispose();
     const { geometry, material } = this.hook;
-    for (const part of [this.#surfaces, this.#shares, this.#skyInGrids, this.#table, this.carrier, geometry, material]) part.dispose();
+    for (const part of [this.#surfaces, this.#shares, this.#scratch, this.#steps, this.#skyInGrids, this.#table, this.carrier, geometry, material]) part.dispose();
   }
 
   /** Those whose light is seen; the sky is a lamp only where it has soft shadows. */
@@ -212,6 +205,20 @@ export class DirectLight {
     return points / (saving ? SAVING : 1);
   }
 
+  /** Those that shine, and may be seen to be off. */
+  #open(): Shadow[] {
+    return this.#shining().filter((shadow) => !this.#isSettled(shadow));
+  }
+
+  #isSettled(shadow: Shadow): boolean {
+    return isSettled(shadow, this.#enough(shadow), this.#exposure);
+  }
+
+  get #exposure(): number {
+    const { toneMapping, toneMappingExposure } = this.#surroundings.renderer;
+    return toneMapping === three.NoToneMapping ? 1 : toneMappingExposure;
+  }
+
   /** Everything that materials read, for a camera that is about to draw. */
   #prepare(camera: Camera): void {
     if (this.#drawing) return;
@@ -226,7 +233,7 @@ export class DirectLight {
         const shown = shining.filter((shadow) => !isSky(shadow.lamp) || (shadowed && showsSky(shadow)));
         this.#sky.replaceInGrids(shown.some(({ lamp }) => isSky(lamp)));
         this.#writeTable(camera, shown, shadowed);
-        this.#shares.showTable(renderer, this.#table);
+        this.#shares.showTable(renderer, this.#table.texture);
       });
       this.#drawing = false;
     } else this.#writeTable(camera, shining, false);
@@ -244,10 +251,11 @@ export class DirectLight {
     this.#signature = signature;
     this.#camera = camera;
     if (moved || this.#seenStale) {
-      for (const shadow of this.#shadows) shadow.count = -1;
+      for (const shadow of this.#shadows) begin(shadow, -1);
       this.#surfacesStale = true;
       this.#seenStale = false;
       this.#skyInGrids.forget();
+      this.#steps.forget();
     }
     for (const shadow of shining) {
       const form = placed(shadow.lamp);
@@ -256,20 +264,20 @@ export class DirectLight {
         const isNew = this.#sky.renew();
         if (isNew) this.#skyInGrids.forget();
         if (shadow.form === null || isNew) this.#mapsTime = performance.now();
-        if (shadow.form === null || isNew || shadow.count < 0) Object.assign(shadow, { form: now, count: 0 });
-        if (shadow.count < this.#enough(shadow)) this.#scratchMap(shadow.lamp);
+        if (shadow.form === null || isNew || shadow.count < 0) this.#begin(shadow, now, 0);
+        if (!this.#isSettled(shadow)) this.#scratch.of(shadow.lamp.definition, renderer);
         continue;
       }
       if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
         this.#drawMap(shadow.middle, form, middleOf(form));
         this.#mapsTime = performance.now();
-        Object.assign(shadow, { form: now, count: -1 });
+        this.#begin(shadow, now, -1);
       }
-      if (shadow.count < this.#enough(shadow)) this.#scratchMap(shadow.lamp);
+      if (!this.#isSettled(shadow)) this.#scratch.of(shadow.lamp.definition, renderer);
       if (shadow.count >= 0) continue;
       this.#drawSurfaces();
       this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
-      shadow.count = 0;
+      this.#begin(shadow, now, 0);
       this.#showStale = true;
     }
     if (shining.some((shadow) => isSky(shadow.lamp) && showsSky(shadow)) && this.#drawSkyInGrids(camera)) this.#showStale = true;
@@ -278,6 +286,13 @@ export class DirectLight {
     if (this.samples === Infinity) this.#rest();
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
     else if (!this.#paused && this.samples < Infinity) this.#task.request();
+  }
+
+  #begin(shadow: Shadow, form: number[], count: number): void {
+    shadow.form = form;
+    begin(shadow, count);
+    this.#rounds.forget();
+    this.#measuring = null;
   }
 
   /** Says whether it was not there. */
@@ -297,14 +312,16 @@ export class DirectLight {
     if (this.#resting || this.#kind !== 'soft') return;
     this.#resting = this.#surfacesStale = true;
     this.#shares.rest();
-    for (const map of this.#scratch.values()) map.dispose();
-    this.#scratch.clear();
-    for (const shadow of this.#shadows) if (shadow.count < this.#enough(shadow)) shadow.count = -1;
+    this.#scratch.dispose();
+    for (const shadow of this.#shadows) if (!this.#isSettled(shadow)) begin(shadow, -1);
   }
 
   /** Something has changed, and not all: lamps that have their samples keep their shares. */
   #wake(): void {
     this.#resting = false;
+    this.#rounds.forget();
+    // Of the sums the ratios are left: whose samples go on begins anew, and is shown as it was until then.
+    for (const shadow of this.#open()) begin(shadow, Math.min(shadow.count, 0));
     const kept = this.#shadows.flatMap(({ lamp, count }, share) => (count < 0 ? [] : isSky(lamp) ? [share, share + 1, share + 2] : [share]));
     this.#shares.recall(this.#surroundings.renderer, kept);
   }
@@ -334,58 +351,66 @@ export class DirectLight {
     return box.getBoundingSphere(new three.Sphere()).applyMatrix4(this.hook.matrixWorld);
   }
 
-  #writeTable(camera: Camera, shining: Shadow[], shadowed: boolean): void {
-    const view = camera.matrixWorldInverse;
-    const space = {
-      point: (of: Vector3) => of.clone().applyMatrix4(view),
-      direction: (of: Vector3) => of.clone().applyMatrix4(view).sub(new three.Vector3().setFromMatrixPosition(view)),
-    };
-    const texels = shining.flatMap((shadow) => texelsOf(placed(shadow.lamp), space, this.#shadows.indexOf(shadow)));
-    const data = this.#table.image.data as Float32Array;
-    const { width, height, viewport } = this.#shares;
-    const now = new Float32Array(data.length);
-    now.set([shining.length, Number(shadowed), width, height, ...viewport.toArray(), ...this.#sky.texels(view), ...texels]);
-    if (now.every((number, i) => number === data[i])) return;
-    data.set(now);
-    this.#table.needsUpdate = true;
+  #writeTable(camera: Camera, shown: Shadow[], shadowed: boolean): void {
+    const lamps = shown.map((shadow): [Lamp, number] => [shadow.lamp, this.#shadows.indexOf(shadow)]);
+    this.#table.write(camera, lamps, shadowed, this.#shares, this.#sky.texels(camera.matrixWorldInverse));
   }
 
-  /** Adds samples of the lamps that have fewest. */
+  /** Adds samples of the lamps of the present round. */
   #refine(): void {
-    const { renderer, scheduler, changed } = this.#surroundings;
-    const countOf = (shadow: Shadow) => (shadow.count < this.#enough(shadow) ? shadow.count : Infinity);
-    const least = () => Math.min(...this.#shining().map(countOf));
-    if (this.#paused || this.#growing !== undefined || this.#shining().some(({ count }) => count < 0)) return;
-    const before = least();
+    const { renderer, scheduler } = this.#surroundings;
+    if (this.#paused || this.#growing !== undefined || this.#measuring !== null || this.#shining().some(({ count }) => count < 0)) return;
+    if (this.#rounds.next() === undefined) this.#rounds.begin(this.#open(), (shadow) => this.#enough(shadow));
+    if (this.#rounds.next() === undefined) return;
     const started = performance.now();
     const batch = this.#batch;
     aside(renderer, () => {
-      for (let i = 0; i < batch && least() < Infinity; i++) this.#sample(this.#shining().find(({ count }) => count === least())!);
+      for (let i = 0, next = this.#rounds.next(); i < batch && next !== undefined; i++, next = this.#rounds.next()) this.#sample(next);
     });
     scheduler.whenDone(() => (this.#batch = performance.now() - started < 20 ? Math.min(8, batch + 1) : Math.max(1, batch >> 1)));
-    const after = least();
-    if (after === Infinity || (after >= FIRST_SHOWN && isPowerPassed(before, after))) {
-      this.#showStale = true;
-      changed();
-    }
-    if (after < Infinity) this.#task.request();
+    if (this.#rounds.next() === undefined) this.#endRound();
+    else this.#task.request();
   }
 
-  /** What samples are drawn into, one after another. */
-  #scratchMap(lamp: Lamp): ShadowMap {
-    const size = sizeOf(lamp);
-    let map = this.#scratch.get(size);
-    if (map === undefined) {
-      map = new ShadowMap(hasPicture(lamp), size);
-      map.allocate(this.#surroundings.renderer);
-      this.#scratch.set(size, map);
-    }
-    return map;
+  /** Measures how far off the lamps of a round are, and shows them. */
+  #endRound(): void {
+    const { renderer, changed } = this.#surroundings;
+    const round = this.#rounds.lamps;
+    const measuring = (this.#measuring = Symbol());
+    const exposure = this.#exposure;
+    aside(renderer, () => {
+      this.#drawSurfaces();
+      this.#steps.see(this.#surfaces, this.#root!, this.#camera!, this.#shares);
+      const found = round.map((shadow) => this.#measure(shadow, exposure));
+      this.#shares.show(renderer);
+      void Promise.all(found).then(
+        (offs) => this.#measuring === measuring && this.#note(round, offs, exposure),
+        () => {
+          // The context is lost: all begins anew.
+          if (this.#measuring === measuring) this.#measuring = null;
+        },
+      );
+    });
+    if (!isStill()) changed();
+  }
+
+  async #measure(shadow: Shadow, exposure: number): Promise<number> {
+    const { lamp, count } = shadow;
+    // Before the sky is shown its light is that of the grids.
+    if (isSky(lamp) && count < 2 * POINTS_TO_SHOW_SKY) return Infinity;
+    return this.#steps.measure(this.#surroundings.renderer, this.#shares, this.#shadows.indexOf(shadow), isSky(lamp) ? 3 : 1, exposure);
+  }
+
+  #note(round: Shadow[], offs: number[], exposure: number): void {
+    this.#measuring = null;
+    round.forEach((shadow, i) => Object.assign(shadow, { off: offs[i], strength: strengthOf(shadow, exposure) }));
+    if (this.samples < Infinity) this.#task.request();
+    else this.#surroundings.changed();
   }
 
   #sample(shadow: Shadow): void {
     const { renderer } = this.#surroundings;
-    const map = this.#scratchMap(shadow.lamp);
+    const map = this.#scratch.of(shadow.lamp.definition, renderer);
     const form = placed(shadow.lamp);
     this.#drawSurfaces();
     this.#drawMap(map, form, isSky(shadow.lamp) ? this.#sky.pointOf(shadow.count) : pointOf(form, shadow.count));
@@ -401,18 +426,8 @@ const isSky = ({ definition }: Lamp) => definition.kind === 'sky';
 /** Whether the sky is shown as a lamp. */
 const showsSky = ({ count }: Shadow) => count >= POINTS_TO_SHOW_SKY;
 
-/** Whether its light comes from far away: its shadow is one picture, not a cube. */
-const hasPicture = ({ definition }: Lamp) => definition.kind === 'sun' || definition.kind === 'sky';
-
-/** The side of its maps, in texels; no two kinds of maps have the same. */
-function sizeOf({ definition }: Lamp): number {
-  return definition.kind === 'sun' ? SUN_SIZE : definition.kind === 'sky' ? SKY_SIZE : CUBE_SIZE;
-}
-
-/** Whether a power of two lies between two numbers, the latter included. */
-function isPowerPassed(before: number, after: number): boolean {
-  return Math.floor(Math.log2(after)) > Math.floor(Math.log2(Math.max(before, 0.5)));
-}
+/** Whether a visitor wants nothing to change by itself: then the picture is shown when it is at rest. */
+const isStill = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 function topOf(object: Object3D): Object3D {
   let top = object;

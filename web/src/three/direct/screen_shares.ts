@@ -144,6 +144,11 @@ export class ScreenShares {
     [this.#sums[share], this.#spare] = [this.#spare, this.#sums[share]!];
   }
 
+  /** The sums of each colour: of a share, or, where there are two more behind it, of three. */
+  sumsOf(share: number, colours = 1): Texture[] {
+    return [0, 1, 2].map((channel) => this.#sums[share + (colours > 1 ? channel : 0)]!.texture);
+  }
+
   /** What a pass reads that comes behind shaders/seen_surface.glsl. */
   get seen(): Record<string, unknown> {
     return { surfaces: this.#surfaces.texture, projection: this.#projection };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Camera, InstancedMesh, Material, Mesh, MeshStandardMaterial, Object3D, Scene, Side, SkinnedMesh, WebGLRenderer } from 'three';
+import type { Camera, InstancedMesh, Material, Mesh, MeshBasicMaterial, MeshStandardMaterial, Object3D, Scene, Side, SkinnedMesh, WebGLRenderer } from 'three';
 import { three } from './kit.js';
 
-/** What of a scene's meshes is drawn: those that cast shadows, from both sides, or those that are seen and not seen through. */
-export type Part = 'casters' | 'seen';
+/** What of a scene's meshes is drawn: those that cast shadows, from both sides, or those that are seen and not seen through, or their colours. */
+export type Part = 'casters' | 'seen' | 'colours';
 
 const NOTHING = () => {};
 
@@ -28,7 +28,7 @@ vec2 shading=floor(2047.5*packNormal(along==0.0?n:along*vShading)+2048.0);
 gl_FragColor=vec4(packNormal(n),-vPlace.z,4096.0*shading.x+shading.y);}`;
 
 /**
- * Draws the surfaces of somebody's scene by materials of its own: depths alone, or each surface's normal and distance. Cut-out
+ * Draws the surfaces of somebody's scene by materials of its own: depths alone, each surface's normal and distance, or its colour. Cut-out
  * materials stay cut out; forms that change, skeletons and instances are drawn as three.js has them.
  */
 export class Surfaces {
@@ -37,6 +37,7 @@ export class Surfaces {
   readonly #hidden = new three.MeshBasicMaterial({ visible: false });
   readonly #plain = new Map<string, Material>();
   readonly #cutOut = new WeakMap<Material, Map<string, Material>>();
+  readonly #coloured = new WeakMap<Material, MeshBasicMaterial>();
   readonly #own = new Set<Material>();
 
   constructor(readonly renderer: WebGLRenderer) {
@@ -74,6 +75,7 @@ export class Surfaces {
     const { transparent, transmission = 0, visible } = of as Material & { transmission?: number };
     const drawn = transmission === 0 && (part === 'casters' ? mesh.castShadow : !transparent);
     if (!mesh.isMesh || !visible || !drawn) return this.#hidden;
+    if (part === 'colours') return this.#colouredAs(of);
     const { flatShading = false } = of as MeshStandardMaterial;
     const key = part === 'casters' ? part : `${of.side}${flatShading}`;
     // What is seen through casts a share of a shadow: some of its places do.
@@ -90,6 +92,14 @@ export class Surfaces {
       Object.assign(material, { map, alphaMap, alphaTest, opacity, alphaHash: of.alphaHash || transparent });
     }
     return material;
+  }
+
+  #colouredAs(of: Material): Material {
+    const material = this.#coloured.get(of) ?? new three.MeshBasicMaterial({ blending: three.NoBlending, toneMapped: false });
+    this.#coloured.set(of, material);
+    this.#own.add(material);
+    const { color = material.color, map = null, alphaMap = null, alphaTest, opacity, alphaHash, vertexColors, side } = of as MeshStandardMaterial;
+    return Object.assign(material, { color, map, alphaMap, alphaTest, opacity, alphaHash, vertexColors, side });
   }
 
   #create(part: Part, side: Side, flat: boolean): Material {
