@@ -137,23 +137,19 @@ vec3 getEdgeIrradiance( vec3 a, vec3 b ) {
 
 }
 
-// A corner of a regular polygon that an affine map has made of one round the origin: of a rectangle with the half sides u and v, or of a
-// polygon of more corners as large as the ellipse with the half axes u and v.
-vec3 getCorner( vec3 center, vec3 u, vec3 v, int i, int corners ) {
-
-	float turn = PI2 / float( corners ), angle = turn * ( float( i ) + 0.5 );
-	return center + sqrt( corners == 4 ? 2.0 : turn / sin( turn ) ) * ( cos( angle ) * u + sin( angle ) * v );
-
-}
-
-// Vector irradiance of the part of such a polygon of radiance 1 that is above the horizon of a receiver (Lambert's formula): along the
-// normal it is the irradiance. `center` as seen from the receiver.
+// Vector irradiance of the part of a polygon of radiance 1 that is above the horizon of a receiver (Lambert's formula): along the normal
+// it is the irradiance. The polygon is a rectangle with the half sides u and v, or one of more corners that an affine map has made of a
+// regular one, as large as the ellipse with the half axes u and v. `center` as seen from the receiver.
 vec3 getPolygonIrradiance( vec3 center, vec3 u, vec3 v, int corners, vec3 normal ) {
 
-	vec3 sum = vec3( 0.0 ), leaves = vec3( 0.0 ), enters = vec3( 0.0 ), next = getCorner( center, u, v, 0, corners );
-	for ( int i = 1; i <= corners; i ++ ) {
+	float turn = PI2 / float( corners );
+	vec2 place = sqrt( corners == 4 ? 2.0 : turn / sin( turn ) ) * vec2( cos( 0.5 * turn ), sin( 0.5 * turn ) );
+	mat2 onwards = mat2( cos( turn ), sin( turn ), - sin( turn ), cos( turn ) );
+	vec3 sum = vec3( 0.0 ), leaves = vec3( 0.0 ), enters = vec3( 0.0 ), next = center + place.x * u + place.y * v;
+	for ( int i = 0; i < corners; i ++ ) {
 
-		vec3 a = next, b = getCorner( center, u, v, i, corners );
+		place = onwards * place;
+		vec3 a = next, b = center + place.x * u + place.y * v;
 		next = b;
 		float over = dot( a, normal ), then = dot( b, normal );
 		if ( over <= 0.0 && then <= 0.0 ) continue;

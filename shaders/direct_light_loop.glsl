@@ -8,6 +8,18 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 	vec4 head = texelFetch( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], ivec2( 0 ), 0 );
 	bool shadowed = receiveShadow && head.y > 0.5;
 	ivec2 place = shadowed ? getPlaceOfShares( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], - geometryPosition.z ) : ivec2( 0 );
+	#ifdef STANDARD
+		#ifndef USE_ANISOTROPY
+			GlossLobe lobe = getGlossLobe( geometryNormal, geometryViewDir, material.roughness );
+		#endif
+		#ifdef USE_RETROREFLECTION
+			GlossLobe lobeBack = getGlossLobe( geometryNormal, reflect( - geometryViewDir, geometryNormal ), material.roughness );
+		#endif
+		#ifdef USE_CLEARCOAT
+			GlossLobe lobeOfCoat = getGlossLobe( geometryClearcoatNormal, geometryViewDir, material.clearcoatRoughness );
+			vec3 allOfCoat = EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, vec3( 1.0 ), 1.0, material.clearcoatRoughness );
+		#endif
+	#endif
 	for ( int k = 0; k < int( head.x ); k ++ ) {
 
 		Lamp lamp = readLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], k );
@@ -41,6 +53,7 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 		float reach = getLamp( lamp, geometryPosition, geometryNormal, directLight );
 		float share = shadowed ? getShareOfLamp( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], place, lamp.share ) : 1.0;
 		directLight.color *= share;
+		if ( directLight.color == vec3( 0.0 ) ) continue;
 		#ifdef STANDARD
 			vec3 specular = reflectedLight.directSpecular;
 			float roughness = material.roughness;
@@ -56,11 +69,11 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 		#ifdef STANDARD
 			material.roughness = roughness;
 			if ( lamp.kind > LAMP_SPHERE ) continue;
-			vec3 radiance = directLight.color == vec3( 0.0 ) ? vec3( 0.0 ) : lamp.color * share;
+			vec3 radiance = lamp.color * share;
 			#ifndef USE_ANISOTROPY
-				vec2 seen = getLampInGloss( lamp, geometryPosition, geometryNormal, geometryViewDir, roughness );
+				vec2 seen = getLampInGloss( lamp, geometryPosition, geometryNormal, lobe );
 				#ifdef USE_RETROREFLECTION
-					vec2 seenBack = getLampInGloss( lamp, geometryPosition, geometryNormal, reflect( - geometryViewDir, geometryNormal ), roughness );
+					vec2 seenBack = getLampInGloss( lamp, geometryPosition, geometryNormal, lobeBack );
 					seen = mix( seen, seenBack, saturate( material.retroreflectivity ) );
 				#endif
 				vec3 gloss = material.specularColorBlended * seen.x + material.specularF90 * seen.y;
@@ -76,10 +89,9 @@ if ( spotLight.decay == LAMPS_OF_PACK ) {
 				reflectedLight.directSpecular = specular + radiance * gloss;
 			#endif
 			#ifdef USE_CLEARCOAT
-				vec2 seenInCoat = getLampInGloss( lamp, geometryPosition, geometryClearcoatNormal, geometryViewDir, material.clearcoatRoughness );
+				vec2 seenInCoat = getLampInGloss( lamp, geometryPosition, geometryClearcoatNormal, lobeOfCoat );
 				vec3 coat = material.clearcoatF0 * seenInCoat.x + material.clearcoatF90 * seenInCoat.y;
-				coat *= EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, vec3( 1.0 ), 1.0, material.clearcoatRoughness );
-				clearcoatSpecularDirect = clearcoatSpecular + radiance * coat;
+				clearcoatSpecularDirect = clearcoatSpecular + radiance * coat * allOfCoat;
 			#endif
 		#endif
 

@@ -188,7 +188,7 @@ test('at rest a room with a lamp looks as in lightwell render; then nothing is d
   assert.deepEqual(errors, []);
 });
 
-/** 0.92 and 3.8 with 1024 samples; most of it is noise of the metals, and what these reflect more than once (decision 044). With one direction a lamp it was 2.8 and 17.7. */
+/** 0.85 and 3.8 with 1024 samples; most of it is noise of the metals, and what these reflect more than once (decision 044). With one direction a lamp it was 2.8 and 17.7. */
 const GLOSS_MEAN = 1.2;
 const GLOSS_P95 = 5;
 
