@@ -359,12 +359,14 @@ export class DirectLight {
     const before = least();
     const started = performance.now();
     const batch = this.#batch;
+    const isShown = (count: number) => count === Infinity || (count >= FIRST_SHOWN && isPowerPassed(before, count));
     aside(renderer, () => {
-      for (let i = 0; i < batch && least() < Infinity; i++) this.#sample(this.#shining().find(({ count }) => count === least())!);
+      // No point more than a picture's: the sequence is evenest at powers of two.
+      for (let i = 0; i < batch && !isShown(least()); i++) this.#sample(this.#shining().find(({ count }) => count === least())!);
     });
     scheduler.whenDone(() => (this.#batch = performance.now() - started < 20 ? Math.min(8, batch + 1) : Math.max(1, batch >> 1)));
     const after = least();
-    if (after === Infinity || (after >= FIRST_SHOWN && isPowerPassed(before, after))) {
+    if (isShown(after)) {
       this.#showStale = true;
       changed();
     }
