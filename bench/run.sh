@@ -240,6 +240,10 @@ bench_growth() {
 bench_direct() {
   command -v chromium >/dev/null || { missing chromium; return; }
   show node bench/direct_light.mjs "$(built_in box-small)"
+  show node bench/peer_shadows.mjs "$out/shadows.jpg"
+  local scenes=(box-small two-rooms)
+  [ -e "$shared/data/rooms/sponza.glb" ] && scenes+=("$shared/data/rooms/sponza.glb")
+  show node bench/direct_cost.mjs "${scenes[@]}"
 }
 
 # What stands and what is scanned under a sky: by the grid alone, and with the sky as a lamp.
