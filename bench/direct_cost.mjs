@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // direct_cost.mjs SCENE...: what the page's direct light of four lamps costs at 1280 x 720, by times until the GPU is done, all in frames of the
-// same scene at rest; the memory that its textures take, by what WebGL is told. SCENE is a built-in one or a GLB; its first lamp is four.
+// same scene at rest; the memory that its textures take, by what WebGL is told. SCENE is a built-in one or a file; its first lamp is four.
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -23,9 +23,8 @@ async function measure(scene, script) {
   bake(scene, pack, { photons: 20_000, grid: 4 });
   const file = readFileSync(pack);
   const [lamp] = JSON.parse(file.subarray(20, 20 + file.readUInt32LE(12))).extensions.LIGHTWELL_lamps.lamps;
-  const isFile = scene.endsWith('.glb');
-  if (!isFile) execFileSync(`${BIN}/lightwell`, ['export', pack, '-o', plain, '--quiet']);
-  const server = await startStaticServer({ ...script, '/scene.glb': isFile ? scene : plain });
+  execFileSync(`${BIN}/lightwell`, ['export', pack, '-o', plain, '--quiet']);
+  const server = await startStaticServer({ ...script, '/scene.glb': plain });
   const { page, errors, close } = await openPage(browser);
   page.setDefaultTimeout(PATIENCE);
   try {
