@@ -243,6 +243,10 @@ bench_direct() {
   show node bench/gloss_scene.mjs "$out/gloss.gltf"
   show "$lightwell" bake "$out/gloss.gltf" -o "$out/gloss.lw.glb" --photons 20000 --grid 4 --quiet
   show node bench/direct_light.mjs "$out/gloss.lw.glb" 1024
+  show node bench/peer_shadows.mjs "$out/shadows.jpg"
+  local scenes=(box-small two-rooms)
+  [ -e "$shared/data/rooms/sponza.glb" ] && scenes+=("$shared/data/rooms/sponza.glb")
+  show node bench/direct_cost.mjs "${scenes[@]}"
 }
 
 # What stands and what is scanned under a sky: by the grid alone, and with the sky as a lamp.

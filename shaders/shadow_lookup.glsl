@@ -18,6 +18,10 @@ out vec4 result;
 
 // Of the depth picture's own values, which reach from 0 to 1.
 const float SLACK = 3e-6;
+// How much nearer to the lamp than the receiver's plane a surface is that has a share in its shadow: of the distance, and of a sun's range.
+const float OWN = 0.0015, OWN_OF_SUN = 1e-4;
+// And one that stands on the receiver, or beside it in a corner: a dozen texels.
+const float CLOSE = 0.05, CLOSE_OF_SUN = 5e-3;
 
 // A receiver as the map sees it.
 struct Receiver {
@@ -37,12 +41,12 @@ struct Receiver {
 
 	}
 
-	// The depth of the receiver's plane in the middle of a texel: not its own, so that no slope shades itself.
-	float depthOf( Receiver receiver, vec2 middle ) {
+	// The depth of the receiver's plane in the middle of a texel: not its own, so that no slope shades itself. And that of what is close to it.
+	vec2 depthsOf( Receiver receiver, vec2 middle ) {
 
 		vec3 n = receiver.normal;
 		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 );
-		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - 1e-4;
+		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - vec2( OWN_OF_SUN, CLOSE_OF_SUN );
 
 	}
 
@@ -62,23 +66,24 @@ struct Receiver {
 
 	}
 
-	float depthOf( Receiver receiver, vec2 middle ) {
+	vec2 depthsOf( Receiver receiver, vec2 middle ) {
 
 		float own = abs( receiver.at.z );
 		float plane = dot( receiver.normal, receiver.at ) / dot( receiver.normal, vec3( middle, receiver.side ) );
 		plane = plane > 0.0 ? clamp( plane, 0.9 * own, 1.1 * own ) : own;
-		return range.y / ( range.y - range.x ) * ( 1.0 - range.x / ( plane * 0.9985 ) );
+		return range.y / ( range.y - range.x ) * ( 1.0 - range.x / ( plane * ( 1.0 - vec2( OWN, CLOSE ) ) ) );
 
 	}
 
 #endif
 
-// Whether the receiver's plane is lit at a texel of its face.
-float isLit( Receiver receiver, ivec2 texel ) {
+// Whether the receiver's plane is lit at a texel of its face; `close` where something close to it is in the way.
+float isLit( Receiver receiver, ivec2 texel, float close ) {
 
 	texel = clamp( texel, ivec2( 0 ), ivec2( size ) - 1 );
-	float depth = depthOf( receiver, 2.0 * ( vec2( texel ) + 0.5 ) / size - 1.0 );
-	return texelFetch( depths, texel + receiver.start, 0 ).r >= depth - SLACK ? 1.0 : 0.0;
+	vec2 limits = depthsOf( receiver, 2.0 * ( vec2( texel ) + 0.5 ) / size - 1.0 ) - SLACK;
+	float depth = texelFetch( depths, texel + receiver.start, 0 ).r;
+	return depth >= limits.x ? 1.0 : depth >= limits.y ? close : 0.0;
 
 }
 
@@ -94,12 +99,25 @@ float lookUp( Receiver receiver ) {
 		vec2 f = fract( receiver.place );
 		vec2 shares[ 3 ] = vec2[ 3 ]( 0.5 - 0.5 * f, vec2( 0.5 ), 0.5 * f );
 		float lit = 0.0;
-		for ( int x = 0; x < 3; x ++ ) for ( int y = 0; y < 3; y ++ ) lit += shares[ x ].x * shares[ y ].y * isLit( receiver, texel + ivec2( x, y ) - 1 );
+		for ( int x = 0; x < 3; x ++ ) for ( int y = 0; y < 3; y ++ ) lit += shares[ x ].x * shares[ y ].y * isLit( receiver, texel + ivec2( x, y ) - 1, 0.0 );
 		return lit;
 
 	#else
 
-		return isLit( receiver, texel );
+		// Between the four texels around: the nearest alone moves an edge by up to half a texel, which is noise of all samples. It decides about
+		// what is close, so that corners are not darker by the other three.
+		vec2 place = receiver.place - 0.5;
+		ivec2 first = ivec2( floor( place ) );
+		vec2 f = place - vec2( first );
+		float own = isLit( receiver, texel, 0.0 ), lit = 0.0;
+		for ( int i = 0; i < 4; i ++ ) {
+
+			ivec2 by = ivec2( i & 1, i >> 1 );
+			vec2 shares = mix( 1.0 - f, f, vec2( by ) );
+			lit += shares.x * shares.y * isLit( receiver, first + by, own );
+
+		}
+		return lit;
 
 	#endif
 

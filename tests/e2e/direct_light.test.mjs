@@ -77,8 +77,11 @@ function shareBehindEdge(x) {
   return left === 0.5 ? 0 : summed(partsOfRectangle([left, 0.5], 2, [-0.5, 0.5], 100), [x, 0, 0], [0, 1, 0]) / summed(whole, [x, 0, 0], [0, 1, 0]);
 }
 
-/** The largest errors, root mean square over the penumbra and in its mean, of shadows from so many points of a lamp. */
-const PENUMBRA = { 64: [0.05, 0.01], 256: [0.02, 0.005] };
+/**
+ * The largest errors, root mean square over the penumbra and in its mean, of shadows from so many points of a lamp: nearly twice what
+ * they are. The nearest texel alone errs by 0.008 after 64.
+ */
+const PENUMBRA = { 64: [0.006, 0.004], 256: [0.003, 0.002] };
 
 /** A sun stays where it is from sample to sample: its shadow has an edge, as wide as a texel of its map or a pixel. */
 const EDGE = 0.02;
@@ -101,7 +104,8 @@ test('the penumbra of a square lamp behind an edge is that of the closed form, t
   const disc = { ...DISC, center: [0, 2, 0], radius: 0.5 };
   for (const [lamp, shareAt] of [[square, shareBehindEdge], [disc, shareOfDiscBehindEdge]])
     for (const [samples, [mostError, mostBias]] of Object.entries(PENUMBRA)) {
-      const { shares } = await page.evaluate((values) => penumbra(...values), [lamp, 0.48, Number(samples)]);
+      const { shares, points } = await page.evaluate((values) => penumbra(...values), [lamp, 0.48, Number(samples)]);
+      assert.ok(points === Number(samples) || points === Infinity, `${points} points are shown instead of ${samples}`);
       const off = shares.map((share, i) => share - shareAt(-0.48 + (0.96 * (i + 0.5)) / shares.length));
       const error = Math.sqrt(off.reduce((sum, x) => sum + x * x, 0) / off.length);
       const bias = off.reduce((sum, x) => sum + x, 0) / off.length;

@@ -136,7 +136,7 @@ export async function settle(lit: Lit, camera: Camera, width: number, samples: n
 }
 
 /** A lamp above, a half-plane at y = 1 over x < 0, and the floor: what of the lamp reaches each pixel of a row from -half to half. */
-export async function penumbra(definition: LampDefinition, half: number, samples: number): Promise<{ shares: number[]; changes: number }> {
+export async function penumbra(definition: LampDefinition, half: number, samples: number): Promise<{ shares: number[]; changes: number; points: number }> {
   const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
   const lit = light([definition], objects);
   const camera = rowCamera(half);
@@ -146,8 +146,9 @@ export async function penumbra(definition: LampDefinition, half: number, samples
   const whole = rowOf(lit.scene, camera, width);
   await settle(lit, camera, width, samples);
   const shares = rowOf(lit.scene, camera, width).map((value, i) => value / whole[i]!);
+  const points = lit.direct.samples;
   lit.direct.dispose();
-  return { shares, changes: lit.changes };
+  return { shares, changes: lit.changes, points };
 }
 
 /**
