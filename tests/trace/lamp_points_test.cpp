@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightwell/trace/lamp_points.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <set>
+
+namespace lightwell {
+namespace {
+
+// Every 2^k points from a multiple of 2^k on have one in each of 2^k equal parts of the square, whatever their sides: a
+// (0, 2)-sequence in base 2 (H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992).
+TEST(LampPoints, CoverTheSquareEvenly) {
+  for (uint32_t k = 1; k <= 10; k++)
+    for (const uint32_t first : {0u, 1u << k, 3u << k})
+      for (uint32_t columns = 0; columns <= k; columns++) {
+        std::set<std::pair<int, int>> parts;
+        for (uint32_t i = first; i < first + (1u << k); i++) {
+          const Vec2f at = progressive_point(i);
+          parts.insert({static_cast<int>(std::ldexp(at[0], static_cast<int>(columns))),
+                        static_cast<int>(std::ldexp(at[1], static_cast<int>(k - columns)))});
+        }
+        EXPECT_EQ(parts.size(), size_t(1) << k) << first << " " << columns;
+      }
+}
+
+TEST(LampPoints, HaveTheirMeanInTheMiddle) {
+  for (const uint32_t count : {4u, 16u, 64u, 256u}) {
+    Vec2f mean{};
+    for (uint32_t i = 0; i < count; i++) mean += progressive_point(i) / static_cast<float>(count);
+    // Without the shift each coordinate's mean is half of 1 / count below the middle; with it a third of that.
+    EXPECT_NEAR(mean[0], 0.5f, 0.2f / static_cast<float>(count)) << count;
+    EXPECT_NEAR(mean[1], 0.5f, 0.2f / static_cast<float>(count)) << count;
+  }
+}
+
+TEST(LampPoints, AreOnTheLamp) {
+  ClientLamp lamp;
+  lamp.kind = ClientLamp::Kind::rectangle;
+  lamp.center = {{1, 2, 3}};
+  lamp.normal = {{0, 1, 0}};
+  lamp.half_u = {{0.5f, 0, 0}};
+  lamp.half_v = {{0, 0, 2}};
+  for (uint32_t i = 0; i < 100; i++) {
+    const Vec3f place = lamp_point(lamp, i).position - lamp.center;
+    EXPECT_LE(std::abs(place[0]), 0.5f);
+    EXPECT_EQ(place[1], 0);
+    EXPECT_LE(std::abs(place[2]), 2);
+  }
+  lamp.kind = ClientLamp::Kind::sphere;
+  lamp.radius = 0.3f;
+  Vec3f mean{};
+  for (uint32_t i = 0; i < 256; i++) {
+    const LampPoint point = lamp_point(lamp, i);
+    EXPECT_NEAR(length(point.position - lamp.center), 0.3f, 1e-6f);
+    EXPECT_NEAR(length(point.normal), 1, 1e-6f);
+    mean += point.normal / 256.0f;
+  }
+  EXPECT_LT(length(mean), 0.01f);
+}
+
+}  // namespace
+}  // namespace lightwell
