@@ -186,7 +186,7 @@ double by_lattice(const Place& place) {
 
 void add_leaves(std::vector<std::unique_ptr<Leaves>>& scenes, std::vector<Place>& places) {
   Random random(7, 3);
-  for (uint64_t i = 0; i < 8; i++) {
+  for (uint64_t i = 0; i < 16; i++) {
     const Leaves& scene = *scenes.emplace_back(std::make_unique<Leaves>(i));
     for (int k = 0; k < 16; k++) {
       const Vec3f position{{0.6f * random.uniform() - 0.3f, 0, 0.6f * random.uniform() - 0.3f}};

@@ -34,12 +34,12 @@ struct Sums {
   Vec3d reflected{};  // the same times visibility
 
   Vec3f mean() const { return of(reflected); }
-  /// What it would be unhidden, where a part is hidden and another is not; else 0.
-  Vec3f mean_of_partly_hidden() const {
-    Vec3d partly{};
+  /// What it would be if nothing were hidden, where something is; else 0.
+  Vec3f mean_if_hidden() const {
+    Vec3d hidden{};
     for (int c = 0; c < 3; c++)
-      if (reflected[c] > 0 && reflected[c] < open[c]) partly[c] = open[c];
-    return of(partly);
+      if (reflected[c] < open[c]) hidden[c] = open[c];
+    return of(hidden);
   }
 
   friend Sums operator-(const Sums& a, const Sums& b) {
@@ -108,9 +108,9 @@ class LampLight::Estimate {
   Vec3f light_of_last() const {
     return sum([](const Side& side) { return (side.sums - side.before).mean(); });
   }
-  /// What one point more or less that is seen would change, where some are seen and others are not; else 0.
+  /// What one point more or less that is seen would change, where not all are; else 0.
   Vec3f light_of_a_point() const {
-    return sum([](const Side& side) { return side.sums.mean_of_partly_hidden(); }) / static_cast<float>(count_);
+    return sum([](const Side& side) { return side.sums.mean_if_hidden(); }) / static_cast<float>(count_);
   }
 
  private:
@@ -209,7 +209,8 @@ float seen_difference(const Display& display, const Vec3f& one, const Vec3f& oth
 /// the screen. The halves of its points are two estimates; that of all, their mean, errs by half of what they differ.
 /// The beginning of the order and what follows to twice as many are each spread evenly over the lamp, while even and
 /// odd points would be its two sides. Few points agree by chance, too: n of them tell shares of the lamp to 1/n at
-/// best.
+/// best, which shows where all are hidden and it is dark. Where all are seen it is little beside their light, and not
+/// asked for.
 float LampLight::seen_error(const Display& display, const Estimate& estimate, const Vec3f& whole) {
   const Vec3f others = whole - estimate.light(), grain = estimate.light_of_a_point() / 2.0f;
   return std::max(seen_difference(display, others + estimate.light_of_first(), others + estimate.light_of_last()) / 2,

@@ -121,12 +121,18 @@ TEST(DirectLight, FoldsUpWhatTheShadingTakesFromBelow) {
     }
 }
 
+/// Adds what shines, with a node of its own by which it is told from others.
+void add_lamp(Scene& scene, const Mesh& mesh, float radiance) {
+  add(scene, mesh, lambertian(0, radiance));
+  scene.instances.back().node = static_cast<int>(scene.instances.size()) - 1;
+}
+
 // Twenty lamps, of which sixteen have points, and a sky: nothing is missing, and nothing is counted twice.
 TEST(DirectLight, CountsEveryLuminaireOnce) {
   Scene scene;
   for (int i = 0; i < 20; i++)
-    add(scene, quad({{static_cast<float>(i) - 10, 2, 0}}, {{0.5f, 0, 0}}, {{0, 0, 0.5f}}),
-        lambertian(0, 1 + 0.1f * static_cast<float>(i)));
+    add_lamp(scene, quad({{static_cast<float>(i) - 10, 2, 0}}, {{0.5f, 0, 0}}, {{0, 0, 0.5f}}),
+             1 + 0.1f * static_cast<float>(i));
   // Hides three of the sixteen, and no edge is before any.
   add(scene, quad({{-4.7f, 1, -3}}, {{1.55f, 0, 0}}, {{0, 0, 6}}), lambertian(0.5f));
   scene.environment.radiance = {{0.01f, 0.02f, 0.03f}};
@@ -160,10 +166,11 @@ TEST(DirectLight, LeavesOutAndMultipliesAsItIsTold) {
 // A shining cube has a sphere for a lamp, out of which its corners reach, and a rectangle that is not quite flat; what
 // they stand for does not hide them.
 TEST(DirectLight, LampsAreNotHiddenByWhatTheyStandFor) {
-  Scene scene = scene_of(block({{-0.1f, 1.9f, -0.1f}}, {{0.1f, 2.1f, 0.1f}}), lambertian(0, 1));
+  Scene scene;
+  add_lamp(scene, block({{-0.1f, 1.9f, -0.1f}}, {{0.1f, 2.1f, 0.1f}}), 1);
   Mesh bent = quad({{2, 2, 0}}, {{1, 0, 0}}, {{0, 0, 1}});
   bent.positions[0][1] -= 0.01f;
-  add(scene, bent, lambertian(0, 1));
+  add_lamp(scene, bent, 1);
   const auto world = world_of(scene);
   ASSERT_EQ(world->lights().luminaires().size(), 2u);
   ClientLamp ball;
@@ -192,11 +199,15 @@ TEST(DirectLight, EndsWhereMoreIsNotSeen) {
   sampling.most_points = 4096;
   sampling.shown = as_it_is;
   int rays = 0;
-  // All of the lamp is seen, or nothing.
-  for (const float offset : {0.9f, -0.9f}) {
-    EXPECT_NEAR(irradiance(scene, sampling, offset, &rays), scene.irradiance(offset), 1e-5);
-    EXPECT_EQ(rays, 16) << offset;
-  }
+  // All of the lamp is seen.
+  EXPECT_NEAR(irradiance(scene, sampling, 0.9f, &rays), scene.irradiance(0.9f), 1e-5);
+  EXPECT_EQ(rays, 16);
+  // Nothing is. It takes more points to tell, fewer beside other light, which makes what a point may miss less visible.
+  EXPECT_EQ(irradiance(scene, sampling, -0.9f, &rays), 0);
+  EXPECT_LT(rays, 1024);
+  Random random(1, 1);
+  const LampLight light(scene.world(), sampling, none, as_they_are);
+  EXPECT_LT(light.reflected(scene.receiver(-0.9f), Vec3f::filled(0.2f), random).rays, rays);
   // A picture without exposure, one of numbers, has all points.
   sampling.shown = {};
   irradiance(scene, sampling, 0.9f, &rays);
@@ -224,11 +235,10 @@ TEST(DirectLight, GoesOnInPenumbras) {
     }
   }
   const double count = offsets * static_cast<double>(scenes.size());
-  std::printf("RAYS %f %f rms %f\n", all_rays / count, all_rays_in_the_dark / count, 255 * std::sqrt(squares / count));
   EXPECT_GT(all_rays / count, 32);
   EXPECT_LT(all_rays_in_the_dark, all_rays);
-  // Two halves that agree by chance end too early, so that it is not quite what the rule asks for.
-  EXPECT_LT(std::sqrt(squares / count), 2 * static_cast<double>(permitted_difference(0)));
+  // Halves may agree by chance, so that single receivers err by more.
+  EXPECT_LT(std::sqrt(squares / count), 1.5 * static_cast<double>(permitted_difference(0)));
 }
 
 TEST(DirectLight, IsTheSameForAnyNumberOfThreads) {
