@@ -2,11 +2,12 @@
 //
 // render_bench: what shadowed irradiance errs by for its rays, by random samples of a lamp and by the order of points
 // that the page has, with the ratio of what is seen of them: behind an edge, in closed form, and behind leaves; and how
-// well halves of the points tell that error.
+// well halves of the points tell that error, and how many rays are taken where they end by themselves.
 #include <cstdio>
 #include <functional>
 
 #include "lightwell/render/direct_light.h"
+#include "lightwell/texture/transfer.h"
 #include "lightwell/trace/lamp_irradiance.h"
 #include "lightwell/trace/lamp_points.h"
 #include "tests/render/half_plane.h"
@@ -128,6 +129,30 @@ void compare_halves(const std::vector<Place>& places) {
   }
 }
 
+/// Rays a receiver, and what is left of the error as steps of a screen of 8 bits, where points end by themselves.
+void print_ends(const std::vector<Place>& places) {
+  std::printf("\n| EV | other radiance | rays, mean | error, steps of 1/255, root mean square |\n|---|---|---|---|\n");
+  for (const float exposure : {0.0f, -3.0f})
+    for (const float other : {0.0f, 0.2f}) {
+      const Display display{.exposure = exposure, .tone = ToneCurve::none};
+      double rays = 0, squares = 0;
+      for (const Place& place : places) {
+        const LampSampling sampling{.lamps = {*place.lamp}, .most_points = 4096, .shown = display};
+        Random random(1, 1);
+        const LampLight::Found found =
+            LampLight(*place.world, sampling, {}, as_they_are).reflected(place.receiver, Vec3f::filled(other), random);
+        const auto encoded = [&](float radiance) {
+          return static_cast<double>(linear_to_srgb(display(Vec3f::filled(other + radiance))[0]));
+        };
+        const double off = encoded(found.radiance[0]) - encoded(static_cast<float>(place.irradiance));
+        rays += found.rays / static_cast<double>(places.size());
+        squares += off * off / static_cast<double>(places.size());
+      }
+      std::printf("| %.0f | %.1f | %.0f | %.2f |\n", static_cast<double>(exposure), static_cast<double>(other), rays,
+                  255 * std::sqrt(squares));
+    }
+}
+
 /// Edges of 64 directions, each before 16 receivers all over its penumbra.
 void add_edges(std::vector<std::unique_ptr<HalfPlane>>& scenes, std::vector<Place>& places) {
   Random random(7, 1);
@@ -213,5 +238,6 @@ int main() {
   compare("an edge", behind_edges);
   compare("leaves", behind_leaves);
   compare_halves(behind_edges);
+  print_ends(behind_edges);
   return 0;
 }
