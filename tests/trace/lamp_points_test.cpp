@@ -25,6 +25,19 @@ TEST(LampPoints, CoverTheSquareEvenly) {
       }
 }
 
+// As squareOf() of web/src/three/direct/lamp_points.ts gives them.
+TEST(LampPoints, AreThoseOfThePage) {
+  const auto expect_at = [](uint32_t index, float x, float y) {
+    EXPECT_FLOAT_EQ(progressive_point(index)[0], x);
+    EXPECT_FLOAT_EQ(progressive_point(index)[1], y);
+  };
+  expect_at(0, 0.333333333f, 0.333333333f);
+  expect_at(1, 0.833333333f, 0.833333333f);
+  expect_at(2, 0.083333333f, 0.583333333f);
+  expect_at(5, 0.958333333f, 0.458333333f);
+  expect_at(1000, 0.260091146f, 0.484700521f);
+}
+
 TEST(LampPoints, HaveTheirMeanInTheMiddle) {
   for (const uint32_t count : {4u, 16u, 64u, 256u}) {
     Vec2f mean{};
