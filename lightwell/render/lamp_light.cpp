@@ -147,7 +147,7 @@ class LampLight::Estimate {
       sides_[i].sums.weight += static_cast<double>(weight);
       if (!above) continue;
       reflected[i] = shading.bsdf.value_without_facets(cos_out, cosine) * weight;
-      reflects = true;
+      reflects = reflects || max_component(reflected[i]) > 0;
     }
     if (!reflects) return 0;
     const Vec3f seen = visibility(world_.surfaces(), receiver_.position, shading.normal, arrival, random);
@@ -183,7 +183,7 @@ LampLight::LampLight(const World& world, const LampSampling& sampling, const Lum
     const int number = static_cast<int>(found - luminaires.begin());
     if (found == luminaires.end() || left_out.contains(number)) continue;
     luminaires_.insert(number);
-    Placed& placed = lamps_.emplace_back(lamp);
+    Placed& placed = lamps_.emplace_back(Placed{.lamp = lamp});
     placed.lamp.radiance *= factors.of(number);
     placed.lamp.intensity *= factors.of(number);
     if (placed.extended())
