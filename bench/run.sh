@@ -10,7 +10,7 @@ programs=build/release/bin
 lightwell=$programs/lightwell
 shared=../shared
 out=build/bench
-parts=(bake trace speed truth estimators peer real look leaks curve mesh light fetch server sizes frame growth direct sky)
+parts=(bake trace speed truth estimators peer real look leaks curve mesh light fetch server sizes frame growth direct rays sky)
 
 show() { # Prints a command, then runs it.
   printf '\033[2m$ %s\033[0m\n' "$*" >&2
@@ -248,6 +248,9 @@ bench_direct() {
   [ -e "$shared/data/rooms/sponza.glb" ] && scenes+=("$shared/data/rooms/sponza.glb")
   show node bench/direct_cost.mjs "${scenes[@]}"
 }
+
+# Rays for shadows of one quality: by random points of a lamp, and in the page's order with the ratio.
+bench_rays() { show "$programs/render_bench"; }
 
 # What stands and what is scanned under a sky: by the grid alone, and with the sky as a lamp.
 bench_sky() {

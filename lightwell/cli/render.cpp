@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "lightwell/bake/lamps.h"
 #include "lightwell/base/file.h"
 #include "lightwell/cli/light_factors.h"
 #include "lightwell/cli/light_source.h"
@@ -99,7 +100,12 @@ Result<Figures> run(const Options& options, Progress& progress, Report& report) 
     if (!sky.empty()) render_options.light.sky = &sky;
     render_options.light.field = &field;
   }
-  if (is_for_the_eye(options.output)) render_options.display = display;
+  LampSampling& sampling = render_options.light.sampling;
+  if (sampling.most_points > 0) sampling.lamps = opened.pack ? opened.pack->lamps() : plan_lamps(*world).client;
+  if (is_for_the_eye(options.output)) {
+    render_options.display = display;
+    sampling.shown = display;
+  }
   figures.prepare_seconds = watch.lap();
 
   render_options.seed = options.scene.import.seed;
@@ -138,6 +144,9 @@ void add_integrator_options(CLI::App& command, RenderOptions& render) {
   add_whole(command, "--spp", render.samples, {1, 1000000}, "Samples a pixel");
   add_whole(command, "--max-depth", render.light.max_bounces, {0, 1024},
             "Bounces between source and surface; 0 is direct light only");
+  add_whole(command, "--direct-samples", render.light.sampling.most_points, {1, 1000000},
+            "Shadows as the page has them: at most so many points of each lamp, fewer where more are not seen")
+      ->option_text("N (default: lamps are sampled at random)");
 }
 
 void add_picture_options(CLI::App& command, Options& options) {
@@ -172,7 +181,11 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
   command->footer(
       "Examples:\n  lightwell render room.glb --spp 256 -o room.png\n"
       "  lightwell render room.lw.glb --integrator ivg --only indirect -o indirect.exr");
-  command->callback([=, &console, &chosen] { chosen = [=, &console] { return render_scene(*options, console); }; });
+  command->callback([=, &console, &chosen] {
+    if (options->render.light.sampling.most_points > 0 && !options->render.integrator->takes_points)
+      throw CLI::ValidationError("--direct-samples", "the path tracer samples lamps at random");
+    chosen = [=, &console] { return render_scene(*options, console); };
+  });
   return command;
 }
 

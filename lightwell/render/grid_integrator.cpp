@@ -2,6 +2,7 @@
 #include "lightwell/render/grid_integrator.h"
 
 #include "lightwell/light/add_radiance.h"
+#include "lightwell/render/direct_light.h"
 #include "lightwell/render/folds.h"
 
 namespace lightwell {
@@ -9,21 +10,17 @@ namespace {
 
 class GridIntegrator : public Integrator {
  public:
-  GridIntegrator(const World& world, const IntegratorOptions& options) : world_(world), options_(options) {
+  GridIntegrator(const World& world, const IntegratorOptions& options)
+      : world_(world), options_(options), direct_(world, options, not_direct(options)) {
     if (options.sky != nullptr) see_open_sky();
-    for (int i = 0; i < static_cast<int>(world.lights().luminaires().size()); i++)
-      if (options.held.contains(i) || options.left_out.contains(i)) not_direct_.insert(i);
   }
 
   bool samples() const override { return wants_direct(options_.part) || finds_folds(); }
 
   ReflectedLight sample(const Receiver& receiver, Random& random) const override {
     ReflectedLight reflected;
-    if (wants_direct(options_.part)) {
-      DirectAndIndirect light(not_direct_, options_.factors);
-      reflected.rays = trace_path(world_, receiver, 0, random, light);
-      reflected.radiance = light.direct;
-    }
+    if (wants_direct(options_.part))
+      reflected = direct_.sample(receiver, direct_.by_lamps() ? known(receiver) : Vec3f{}, random);
     if (finds_folds()) add_folds(receiver, random, reflected);
     return reflected;
   }
@@ -33,6 +30,14 @@ class GridIntegrator : public Integrator {
   }
 
  private:
+  /// The luminaires whose direct light is in the grids, or in nothing.
+  static LuminaireSet not_direct(const IntegratorOptions& options) {
+    LuminaireSet set = options.held;
+    for (int i = 0; i < options.left_out.size(); i++)
+      if (options.left_out.contains(i)) set.insert(i);
+    return set;
+  }
+
   /// The irradiance of the sky where nothing hides it, in the moments that its grid has.
   void see_open_sky() {
     constexpr size_t count = 16'384;
@@ -97,7 +102,7 @@ class GridIntegrator : public Integrator {
   const IntegratorOptions& options_;
   Moments open_sky_;
   Vec3f mean_of_sky_{};
-  LuminaireSet not_direct_;
+  const DirectLight direct_;
 };
 
 }  // namespace

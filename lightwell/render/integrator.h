@@ -5,6 +5,7 @@
 #include <span>
 
 #include "lightwell/light/light_field.h"
+#include "lightwell/render/lamp_light.h"
 #include "lightwell/render/light_part.h"
 #include "lightwell/trace/paths.h"
 
@@ -43,6 +44,8 @@ struct IntegratorOptions {
   LuminaireSet left_out{};
   /// By which the light of luminaires is multiplied. That of `field` is so already.
   LuminaireFactors factors{};
+  /// Of the lamps' direct light, for integrators that take it by points of them, as the page does.
+  LampSampling sampling{};
 };
 
 /// A row of the table of integrators. A new integrator is a new file and a row.
@@ -51,6 +54,7 @@ struct IntegratorKind {
   const char* help;     ///< a few words for the command line
   bool finds_indirect;  ///< false: direct light alone
   bool needs_field;     ///< looks up baked light
+  bool takes_points;    ///< of lamps, for their direct light, if it is to (LampSampling)
   /// World and options must outlive the integrator. `field` must be set if it is needed.
   std::unique_ptr<Integrator> (*make)(const World& world, const IntegratorOptions& options);
 };

@@ -6,8 +6,8 @@ namespace {
 
 class PathIntegrator : public Integrator {
  public:
-  PathIntegrator(const World& world, const IntegratorOptions& options, int max_bounces)
-      : world_(world), options_(options), max_bounces_(max_bounces) {}
+  PathIntegrator(const World& world, const IntegratorOptions& options)
+      : world_(world), options_(options), max_bounces_(wants_indirect(options.part) ? options.max_bounces : 0) {}
 
   bool samples() const override { return wants_direct(options_.part) || max_bounces_ > 0; }
 
@@ -29,11 +29,7 @@ class PathIntegrator : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_path_integrator(const World& world, const IntegratorOptions& options) {
-  return std::make_unique<PathIntegrator>(world, options, wants_indirect(options.part) ? options.max_bounces : 0);
-}
-
-std::unique_ptr<Integrator> make_direct_integrator(const World& world, const IntegratorOptions& options) {
-  return std::make_unique<PathIntegrator>(world, options, 0);
+  return std::make_unique<PathIntegrator>(world, options);
 }
 
 }  // namespace lightwell

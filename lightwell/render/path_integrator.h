@@ -8,7 +8,4 @@ namespace lightwell {
 /// Path tracing, the reference: unbiased for all light up to `max_bounces`.
 std::unique_ptr<Integrator> make_path_integrator(const World& world, const IntegratorOptions& options);
 
-/// Path tracing of the direct light only.
-std::unique_ptr<Integrator> make_direct_integrator(const World& world, const IntegratorOptions& options);
-
 }  // namespace lightwell

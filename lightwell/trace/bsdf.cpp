@@ -26,6 +26,13 @@ Bsdf::Albedo albedo_of(const Bsdf& bsdf, const GlossShare& share) {
           .repeated = bsdf.repeated * passage.to_facets};
 }
 
+/// The value of what is diffuse and of what facets pass to each other.
+Vec3f cosine_lobes(const Bsdf& bsdf, const GlossShare& to_out, const GlossShare& to_in) {
+  const Passage back(bsdf, to_out), there(bsdf, to_in), mean(bsdf, mean_gloss_share(bsdf.roughness));
+  return bsdf.diffuse * (there.to_diffuse * back.to_diffuse / (pi * mean.to_diffuse)) +
+         bsdf.repeated * (there.to_facets * back.to_facets / (pi * mean.to_facets));
+}
+
 /// The probability of sampling a cosine's lobe, not the facets.
 float share_of_cosine(const Bsdf::Albedo& albedo) {
   const float cosine = max_component(albedo.diffuse + albedo.repeated), facets = max_component(albedo.gloss);
@@ -38,16 +45,25 @@ Bsdf::Albedo Bsdf::albedo(float cosine) const {
   return glossy() ? albedo_of(*this, gloss_share(cosine, roughness)) : Albedo{.diffuse = diffuse};
 }
 
+Vec3f Bsdf::value_without_facets(float cos_out, float cos_in) const {
+  if (cos_in <= 0) return {};
+  if (!glossy() || cos_out <= 0) return diffuse / pi;
+  return cosine_lobes(*this, gloss_share(cos_out, roughness), gloss_share(cos_in, roughness));
+}
+
+Bsdf Bsdf::facets_alone() const {
+  Bsdf facets = *this;
+  facets.diffuse = facets.repeated = {};
+  return facets;
+}
+
 Bsdf::Evaluation Bsdf::evaluate(const Vec3f& normal, const Vec3f& out, const Vec3f& in) const {
   const float cos_in = dot(normal, in), cos_out = dot(normal, out);
   if (cos_in <= 0) return {};
   if (!glossy() || cos_out <= 0) return {diffuse / pi, cos_in / pi};
   const GlossShare to_out = gloss_share(cos_out, roughness);
-  const Passage back(*this, to_out), there(*this, gloss_share(cos_in, roughness)),
-      mean(*this, mean_gloss_share(roughness));
   Evaluation result;
-  result.value = diffuse * (there.to_diffuse * back.to_diffuse / (pi * mean.to_diffuse)) +
-                 repeated * (there.to_facets * back.to_facets / (pi * mean.to_facets));
+  result.value = cosine_lobes(*this, to_out, gloss_share(cos_in, roughness));
   const Vec3f half = normalized(in + out);
   const float alpha = ggx_alpha(roughness);
   const float facets = ggx_facets(dot(normal, half), alpha) / (4 * cos_out);

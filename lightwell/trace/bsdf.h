@@ -45,6 +45,11 @@ struct Bsdf {
     float density = 0;  ///< with which sample() chooses `in`, 1/sr
   };
   Evaluation evaluate(const Vec3f& normal, const Vec3f& out, const Vec3f& in) const;
+  /// The part of the value that is no mirror image: what is diffuse, and what facets pass to each other. It depends on
+  /// the cosines of both directions to the normal alone, and only a little.
+  Vec3f value_without_facets(float cos_out, float cos_in) const;
+  /// The other part: what is met by facets once.
+  Bsdf facets_alone() const;
 
   struct Sample {
     Vec3f in{};

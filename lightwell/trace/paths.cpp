@@ -65,16 +65,17 @@ class Path {
   }
 
   void meet_environment(const Bsdf::Sample& sample) {
-    if (lights_.environment().black()) return;
+    if (lights_.environment_luminaire() < 0) return;
     const float weight = power_heuristic(sample.density, lights_.environment_density(sample.in));
     add(lights_.environment_luminaire(), lights_.environment().radiance(sample.in) * weight);
   }
 
   void meet_surface(const Bsdf::Sample& sample, const Hit& hit, const Surface& surface) {
     const Vec3f emission = surfaces_.emission(hit, surface);
-    if (max_component(emission) <= 0) return;
+    const int luminaire = lights_.luminaire(hit);
+    if (luminaire < 0 || max_component(emission) <= 0) return;
     const float weight = power_heuristic(sample.density, lights_.density(vertex_.position, hit));
-    add(lights_.luminaire(hit), emission * weight);
+    add(luminaire, emission * weight);
   }
 
   bool survives() {

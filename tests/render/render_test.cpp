@@ -84,9 +84,11 @@ struct Witness : public Integrator {
 // Rays are spread over the area of a picture evenly: over each pixel of a wall 2 m away, in 16 by 16 parts.
 TEST(Render, SamplesPixelsEvenly) {
   const Scene scene = scene_of(quad({{-50, -50, 0}}, {{100, 0, 0}}, {{0, 100, 0}}), lambertian(0.5f));
-  const IntegratorKind kind{"witness", "", true, false, [](const World&, const IntegratorOptions&) {
-                              return std::unique_ptr<Integrator>(new Witness);
-                            }};
+  const IntegratorKind kind{
+      "witness", "",
+      true,      false,
+      false,     [](const World&, const IntegratorOptions&) {
+                              return std::unique_ptr<Integrator>(new Witness); }};
   RenderOptions options;
   options.integrator = &kind;
   options.width = options.height = 2;

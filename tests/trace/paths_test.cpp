@@ -162,6 +162,26 @@ TEST(Paths, PortionsAddUpToTheWhole) {
   }
 }
 
+// In a world that some luminaires light, what others' surfaces and the sky send is not met.
+TEST(Paths, WorldsOfSomeLuminairesAddUp) {
+  Scene scene = scene_of(quad({{-1, 1, -1}}, {{2, 0, 0}}, {{0, 0, 1}}), lambertian(0, 1));
+  add(scene, quad({{-1, 1, 1}}, {{2, 0, 0}}, {{0, 1, 1}}), lambertian(0, 2));
+  scene.environment.radiance = {{0.5f, 1, 2}};
+  const auto world = world_of(scene);
+  ASSERT_EQ(world->lights().luminaires().size(), 3u);
+  const Receiver receiver = Receiver::irradiance({}, up);
+  constexpr int paths = 200'000;
+  const Vec3d all = mean_light(*world, receiver, 0, paths)[0];
+  Vec3d sum{};
+  for (int i = 0; i < 3; i++) {
+    LuminaireSet one;
+    one.insert(i);
+    sum += mean_light(*world->lit_by(one), receiver, 0, paths)[0];
+  }
+  // The standard errors of so many paths are below 0.5 %.
+  for (int c = 0; c < 3; c++) EXPECT_NEAR(sum[c], all[c], 0.015 * all[c]);
+}
+
 TEST(Paths, CountTheirRaysAndTakeNoneInTheDark) {
   const Scene dark = scene_of(room({{0, 0, 0}}, {{1, 1, 1}}), lambertian(0.5f));
   const Scene lit = scene_of_three_sources();
