@@ -32,6 +32,7 @@ export function bindSettings(view: LightwellView, three: Three): void {
   bindCells(view, '#light-links', async (pack) => (await pack.blockedLinks()).flatMap((ends) => linkLines(ends, three)));
   bindLightGroups(view);
   bindCameras(view);
+  bindShadows(view);
   bindSharing(view);
   for (const attribute of ['wireframe', 'measure', 'compare', 'raking-light', 'animation']) bindSwitch(view, attribute);
   showWhereAnimated(view);
@@ -58,6 +59,20 @@ function bindSwitch(view: LightwellView, attribute: string): void {
 
 function say(words: string): void {
   document.querySelector<HTMLOutputElement>('#done')!.value = words;
+}
+
+/** How far the shadows of lamps have come. */
+function bindShadows(view: LightwellView): void {
+  const line = document.querySelector<HTMLElement>('#shadows')!;
+  const show = () => {
+    const { lamps = [], shadowSamples = 0, shadowError = 0 } = view.pack ?? {};
+    line.hidden = lamps.length === 0;
+    const off = shadowError > 1 ? `error ${shadowError.toFixed(1)} visible steps` : 'no visible error';
+    const count = shadowSamples < Infinity ? `${shadowSamples} points` : 'at rest';
+    line.querySelector('output')!.value = shadowError < Infinity ? `${count}, ${off}` : count;
+  };
+  view.on('frame', show);
+  show();
 }
 
 function bindStrategy(view: LightwellView): void {
