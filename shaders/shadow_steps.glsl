@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A full-screen pass over tiles of a view: by which step of what is shown a lamp's newest samples change it, at most, as a multiple of the
-// largest step that is not seen. What is shown has half of the samples, so that the step is half of what the two halves differ by: the error of
+// A full-screen pass over tiles of a view: by which step of what is shown a lamp's newest samples change it, at all but a few of a tile's pixels, as
+// a multiple of the largest step that is not seen. What is shown has half of the samples, so that the step is half of what the two halves differ by: the error of
 // all of them, or less. Comes behind seen_surface.glsl, three.js's chunk common, direct_light.glsl and permitted_difference.glsl.
 
 uniform sampler2D picture;      // what materials read now (direct_light.glsl)
@@ -13,13 +13,15 @@ uniform vec2 tiles;
 
 out vec4 result;
 
-// Of a tile's pixels so many, squared, are looked at.
+// Of a tile's pixels so many, squared, are looked at, and three may be outliers: the rims of facets, which see a sliver of a lamp.
 const int LOOKS = 8;
+// Of its own white a screen reflects so much of the room's light (lightwell/render/permitted_difference.h).
+const float REFLECTED = 0.005;
 const vec3 LUMINANCE = vec3( 0.2126, 0.7152, 0.0722 );
 
 float encode( float light ) {
 
-	float x = clamp( light, 0.0, 1.0 );
+	float x = ( clamp( light, 0.0, 1.0 ) + REFLECTED ) / ( 1.0 + REFLECTED );
 	return x <= 0.0031308 ? 12.92 * x : 1.055 * pow( x, 1.0 / 2.4 ) - 0.055;
 
 }
@@ -86,13 +88,14 @@ float getStep( ivec2 pixel ) {
 void main() {
 
 	vec2 tile = vec2( textureSize( surfaces, 0 ) ) / tiles;
-	float largest = 0.0;
+	vec4 largest = vec4( 0.0 );
 	for ( int i = 0; i < LOOKS * LOOKS; i ++ ) {
 
 		vec2 place = floor( gl_FragCoord.xy ) + ( vec2( i % LOOKS, i / LOOKS ) + 0.5 ) / float( LOOKS );
-		largest = max( largest, getStep( ivec2( place * tile ) ) );
+		float here = getStep( ivec2( place * tile ) );
+		for ( int k = 0; k < 4; k ++ ) if ( here > largest[ k ] ) { float less = largest[ k ]; largest[ k ] = here; here = less; }
 
 	}
-	result = vec4( largest, 0.0, 0.0, 1.0 );
+	result = vec4( largest.w, 0.0, 0.0, 1.0 );
 
 }

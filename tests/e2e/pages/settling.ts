@@ -17,8 +17,11 @@ interface Shown {
   error: number;
 }
 
-/** A lamp above a floor, behind the edge of a half-plane or with nothing in its way: all that is shown of it, until it is at rest. */
-export async function shownOf(definition: LampDefinition, occluded: boolean): Promise<{ shown: Shown[]; brighter: number[] }> {
+/**
+ * A lamp above a floor, behind the edge of a half-plane or with nothing in its way: all that is shown of it until it is at rest, and how many
+ * samples there are then for a brighter one, and for a camera that moves.
+ */
+export async function shownOf(definition: LampDefinition, occluded: boolean): Promise<{ shown: Shown[]; brighter: number[]; moved: number[] }> {
   const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), ...(occluded ? [surface(10, 10, [-5, 1, 0], [0, 1, 0])] : [])];
   const lit = light([definition], objects);
   const { direct, scene } = lit;
@@ -41,8 +44,15 @@ export async function shownOf(definition: LampDefinition, occluded: boolean): Pr
     rowOf(scene, camera, WIDTH);
     return direct.samples;
   });
+  lamp!.intensity = intensity;
+  // By as little as roundings move a camera that rests, and by more.
+  const moved = [1e-15, 1e-3].map((way) => {
+    camera.position.x += way;
+    rowOf(scene, camera, WIDTH);
+    return direct.samples;
+  });
   direct.dispose();
-  return { shown, brighter };
+  return { shown, brighter, moved };
 }
 
 /** The largest steps that are not seen, of contrasts, from the shader. */

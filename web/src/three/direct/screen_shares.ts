@@ -15,6 +15,8 @@ const MOST_BYTES = 96 * 2 ** 20;
 const BYTES_OF_A_SUM = 8;
 /** And of what is ready without sums. */
 const READY = 3;
+/** Controls find a camera that rests anew for every picture, each time with other roundings. */
+const ROUNDING = 1e-9;
 const COPY = `precision highp float;uniform highp sampler2D table;out vec4 result;
 void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
 
@@ -83,7 +85,7 @@ export class ScreenShares {
   /** Takes the view of a camera into the renderer's present viewport; says whether it is another than before. */
   see(renderer: WebGLRenderer, camera: Camera): boolean {
     const viewport = renderer.getCurrentViewport(new three.Vector4());
-    const sameCamera = camera.matrixWorld.equals(this.#place) && camera.projectionMatrix.equals(this.#projection);
+    const sameCamera = isSame(camera.matrixWorld, this.#place) && isSame(camera.projectionMatrix, this.#projection);
     if (sameCamera && viewport.equals(this.#viewport)) return false;
     this.#viewport.copy(viewport);
     this.#place.copy(camera.matrixWorld);
@@ -198,3 +200,5 @@ export class ScreenShares {
     return pass;
   }
 }
+
+const isSame = (a: Matrix4, b: Matrix4) => a.elements.every((x, i) => Math.abs(x - b.elements[i]!) <= ROUNDING * (1 + Math.abs(x)));
