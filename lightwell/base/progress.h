@@ -10,7 +10,8 @@ namespace lightwell {
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// Begins a stage of `total` units, such as "photons"; 0 if their number is unknown.
+  /// Begins a stage of `total` units, such as "photons", whose rate is shown; 0 if their number is unknown, no unit if
+  /// their rate tells nothing.
   virtual void stage(std::string_view /*name*/, double /*total*/, std::string_view /*unit*/) {}
   /// Reports that `done` units of the stage are done. Threads may report out of order; the largest number counts.
   virtual void advance(double /*done*/) {}

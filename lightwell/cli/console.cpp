@@ -100,7 +100,7 @@ void ConsoleProgress::draw(double done, double seconds) {
     line += " [" + std::string(filled, '#') + std::string(width - filled, '.') + "] ";
     line += std::to_string(static_cast<int>(share * 100)) + " %";
     if (seconds > 0.5 && done > 0) {
-      line += ", " + scaled_number(done / seconds) + " " + unit_ + "/s";
+      if (!unit_.empty()) line += ", " + scaled_number(done / seconds) + " " + unit_ + "/s";
       line += ", " + scaled_number(seconds / done * (total_ - done)) + " s left";
     }
   }
@@ -119,7 +119,7 @@ void ConsoleProgress::finish() {
   if (cancelled()) return name_.clear();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::fprintf(stderr, "%s: %.1f s", name_.c_str(), seconds);
-  if (total_ > 0 && seconds > 0)
+  if (total_ > 0 && seconds > 0 && !unit_.empty())
     std::fprintf(stderr, ", %s %s/s", scaled_number(total_ / seconds).c_str(), unit_.c_str());
   std::fputc('\n', stderr);
   name_.clear();

@@ -16,6 +16,8 @@ namespace {
 /// Where the light is looked up for the exposure only: a tenth of an EV needs no more.
 constexpr uint64_t exposure_photons = 200'000;
 constexpr int exposure_nodes = 12;
+/// A pixel.
+constexpr int most_samples = 1'000'000;
 
 struct Options {
   SceneOptions scene;
@@ -124,7 +126,7 @@ int render_scene(const Options& options, const Console& console) {
   if (options.output != "-")
     console.print({{"seconds", {{"prepare", figures->prepare_seconds}, {"render", figures->statistics.seconds}}},
                    {"rays", figures->statistics.rays},
-                   {"spp", options.render.samples}});
+                   {"spp", figures->statistics.samples}});
   return 0;
 }
 
@@ -141,7 +143,10 @@ void add_integrator_options(CLI::App& command, RenderOptions& render) {
   add_choice<LightPart>(command, "--only", render.light.part,
                         {{"total", LightPart::total}, {"direct", LightPart::direct}, {"indirect", LightPart::indirect}},
                         "Which light is shown");
-  add_whole(command, "--spp", render.samples, {1, 1000000}, "Samples a pixel");
+  CLI::Option* samples = add_whole(command, "--spp", render.samples, {1, most_samples}, "Samples a pixel");
+  add_number(command, "--time", render.seconds, {0, 1e9},
+             "Seconds to take samples for, in place of --spp: as many as there is time for, one a pixel at least")
+      ->excludes(samples);
   add_whole(command, "--max-depth", render.light.max_bounces, {0, 1024},
             "Bounces between source and surface; 0 is direct light only");
   add_whole(command, "--direct-samples", render.light.sampling.most_points, {1, 1000000},
@@ -182,6 +187,7 @@ CLI::App* add_render(CLI::App& program, Console& console, std::function<int()>& 
       "Examples:\n  lightwell render room.glb --spp 256 -o room.png\n"
       "  lightwell render room.lw.glb --integrator ivg --only indirect -o indirect.exr");
   command->callback([=, &console, &chosen] {
+    if (options->render.seconds) options->render.samples = most_samples;
     if (options->render.light.sampling.most_points > 0 && !options->render.integrator->takes_points)
       throw CLI::ValidationError("--direct-samples", "the path tracer samples lamps at random");
     chosen = [=, &console] { return render_scene(*options, console); };

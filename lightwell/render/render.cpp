@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightwell/render/render.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 
@@ -10,7 +11,16 @@
 namespace lightwell {
 namespace {
 
-/// Computes the pixels of a picture.
+/// What a pixel is the mean of.
+struct PixelSamples {
+  Random random;
+  Vec3d sum{};
+  int count = 0;
+
+  Vec3f mean() const { return (sum / count).cast<float>(); }
+};
+
+/// Takes samples of the pixels of a picture.
 class Renderer {
  public:
   Renderer(const World& world, const Camera& camera, const RenderOptions& options)
@@ -19,18 +29,19 @@ class Renderer {
         options_(options),
         integrator_(options.integrator->make(world, options.light)) {}
 
-  /// The mean radiance over a pixel; adds the number of rays traced to `rays`.
-  Vec3f pixel(int x, int y, uint64_t& rays) const {
+  PixelSamples begin(size_t pixel) const { return {.random = Random(options_.seed, pixel)}; }
+
+  /// Adds samples of the radiance over a pixel. Returns the number of rays traced.
+  uint64_t add(int samples, int x, int y, PixelSamples& pixel) const {
     const float width = static_cast<float>(options_.width), height = static_cast<float>(options_.height);
-    Random random(options_.seed,
-                  static_cast<uint64_t>(y) * static_cast<uint64_t>(options_.width) + static_cast<uint64_t>(x));
-    Vec3d sum{};
-    for (int i = 0; i < options_.samples; i++) {
-      const float u = (static_cast<float>(x) + random.uniform()) / width;
-      const float v = (static_cast<float>(y) + random.uniform()) / height;
-      sum += radiance(camera_ray(camera_, width / height, u, v), random, rays).cast<double>();
+    uint64_t rays = 0;
+    for (int i = 0; i < samples; i++) {
+      const float u = (static_cast<float>(x) + pixel.random.uniform()) / width;
+      const float v = (static_cast<float>(y) + pixel.random.uniform()) / height;
+      pixel.sum += radiance(camera_ray(camera_, width / height, u, v), pixel.random, rays).cast<double>();
     }
-    return (sum / options_.samples).cast<float>();
+    pixel.count += samples;
+    return rays;
   }
 
  private:
@@ -65,6 +76,71 @@ class Renderer {
   std::unique_ptr<Integrator> integrator_;
 };
 
+/// A picture, better with each pass over it.
+class Passes {
+ public:
+  Passes(const World& world, const Camera& camera, const RenderOptions& options, Progress& progress)
+      : options_(options), progress_(progress), renderer_(world, camera, options) {
+    const size_t width = static_cast<size_t>(options.width), height = static_cast<size_t>(options.height);
+    picture_.pixels.resize(3 * width * height);
+    if (options.seconds) {
+      kept_.reserve(width * height);
+      for (size_t i = 0; i < width * height; i++) kept_.push_back(renderer_.begin(i));
+      progress.stage("picture", *options.seconds, "");
+    } else {
+      progress.stage("picture", static_cast<double>(height), "rows");
+    }
+  }
+
+  /// Takes passes until there are as many samples or as much time has passed as is wanted.
+  void take() {
+    do pass(options_.seconds ? 1 : options_.samples);
+    while (!progress_.cancelled() && samples_ < options_.samples && another_fits());
+  }
+
+  Picture& picture() { return picture_; }
+  RenderStatistics statistics() const { return {.seconds = seconds(), .rays = rays_, .samples = samples_}; }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  bool another_fits() const { return seconds() * (samples_ + 1) / samples_ <= *options_.seconds; }
+
+  void pass(int samples) {
+    std::atomic<size_t> done = 0;
+    parallel_for(
+        static_cast<size_t>(options_.height), 1, options_.threads,
+        [&](size_t begin, size_t end, int) {
+          for (size_t y = begin; y < end; y++) add_to_row(samples, y);
+          done += end - begin;
+          progress_.advance(options_.seconds ? std::min(seconds(), *options_.seconds) : static_cast<double>(done));
+        },
+        [&] { return progress_.cancelled(); });
+    samples_ += samples;
+  }
+
+  void add_to_row(int samples, size_t y) {
+    const size_t width = static_cast<size_t>(options_.width);
+    uint64_t rays = 0;
+    for (size_t x = 0; x < width; x++) {
+      const size_t i = y * width + x;
+      PixelSamples fresh = renderer_.begin(i);
+      PixelSamples& pixel = kept_.empty() ? fresh : kept_[i];
+      rays += renderer_.add(samples, static_cast<int>(x), static_cast<int>(y), pixel);
+      std::ranges::copy(pixel.mean().e, picture_.pixels.begin() + static_cast<ptrdiff_t>(3 * i));
+    }
+    rays_ += rays;
+  }
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const RenderOptions& options_;
+  Progress& progress_;
+  const Renderer renderer_;
+  std::vector<PixelSamples> kept_;  // of all pixels, if there is more than one pass
+  Picture picture_{options_.width, options_.height, {}};
+  std::atomic<uint64_t> rays_ = 0;
+  int samples_ = 0;  // a pixel
+};
+
 Result<void> check(const RenderOptions& options) {
   if (options.width <= 0 || options.height <= 0) return fail("picture", "its size must be positive");
   if (options.samples <= 0) return fail("picture", "it needs at least one sample a pixel");
@@ -78,30 +154,11 @@ Result<void> check(const RenderOptions& options) {
 Result<Picture> render(const World& world, const Camera& camera, const RenderOptions& options, Progress& progress,
                        RenderStatistics& statistics) {
   LW_CHECK(check(options));
-  const auto start = std::chrono::steady_clock::now();
-  const Renderer renderer(world, camera, options);
-  Picture picture{options.width, options.height, {}};
-  const size_t width = static_cast<size_t>(options.width), height = static_cast<size_t>(options.height);
-  picture.pixels.resize(3 * width * height);
-  std::atomic<size_t> rows = 0;
-  std::atomic<uint64_t> rays = 0;
-  progress.stage("picture", static_cast<double>(height), "rows");
-  parallel_for(
-      height, 1, options.threads,
-      [&](size_t begin, size_t end, int) {
-        uint64_t of_rows = 0;
-        for (size_t i = begin * width; i < end * width; i++) {
-          const Vec3f value = renderer.pixel(static_cast<int>(i % width), static_cast<int>(i / width), of_rows);
-          std::copy(value.e.begin(), value.e.end(), picture.pixels.begin() + static_cast<ptrdiff_t>(3 * i));
-        }
-        rays += of_rows;
-        progress.advance(static_cast<double>(rows += end - begin));
-      },
-      [&] { return progress.cancelled(); });
+  Passes passes(world, camera, options, progress);
+  passes.take();
   if (progress.cancelled()) return fail(ErrorKind::cancelled, "picture", "cancelled");
-  statistics.rays = rays;
-  statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return picture;
+  statistics = passes.statistics();
+  return std::move(passes.picture());
 }
 
 }  // namespace lightwell

@@ -363,6 +363,19 @@ TEST_F(Commands, RenderProbeAndDiffAgree) {
   EXPECT_GT(points["points"][0]["stderr"], 0.0);
 }
 
+// The figures tell how many samples time allowed for; one, where there is none.
+TEST_F(Commands, RenderTakesAsManySamplesAsThereIsTimeFor) {
+  const auto samples = [&](const std::string& options) {
+    const Outcome outcome = run("render box-small --size 16x12 --json --quiet -o " + path("a.pfm") + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return json::parse(outcome.out)["spp"].get<int>();
+  };
+  EXPECT_EQ(samples(" --time 0"), 1);
+  // More than without --time, though a sample of 192 pixels takes a millisecond.
+  EXPECT_GT(samples(" --time 1"), 64);
+  EXPECT_EQ(samples(""), 64);
+}
+
 // By points of lamps as by random samples of luminaires, from a scene and from its pack, where the grid holds what no
 // lamp stands for.
 TEST_F(Commands, RenderHasTheSameDirectLightByPointsOfLamps) {

@@ -65,6 +65,8 @@ TEST_F(Commands, BadUsageIsOneLineThatSaysWhatWasExpected) {
             "--direct-samples: 0: is not a whole number from 1 to 1000000"},
            {"render box-small --direct-samples 16 -o " + path("x.png"), "the path tracer samples lamps at random"},
            {"render box-small --direct-samples 16 --integrator path -o " + path("x.png"), "--direct-samples"},
+           {"render box-small --time soon -o " + path("x.png"), "--time: soon: is not a number from 0 to"},
+           {"render box-small --time 1 --spp 4 -o " + path("x.png"), "--spp excludes --time"},
            {"diff a b -o " + path("x.exr"), "does not end in .png"},
            {"diff a b --metric best", "is not rmse, relmse, deltae, lab or flip"},
            {"fetch a --latency inf", "--latency: inf"},

@@ -148,6 +148,37 @@ TEST(DirectLight, CountsEveryLuminaireOnce) {
   expect_near(by_points(*world, receiver, sampling, 20'000), at_random(*world, receiver, 400'000), 0.01f);
 }
 
+// A panel whose picture is bright on one side and half as bright on the other: two lamps stand for one luminaire, and
+// an edge before them hides more of one than of the other.
+TEST(DirectLight, CountsALuminaireOfTwoLampsOnce) {
+  constexpr int width = 256;
+  Image picture{width, 1, 3, {}};
+  for (int x = 0; x < width; x++) picture.pixels.insert(picture.pixels.end(), 3, x < width / 2 ? 255 : 188);
+  const float half = srgb_to_linear(uint8_t{188});
+  Scene scene;
+  scene.images.push_back(picture);
+  Material material = lambertian(0, 1);
+  material.emission_texture.image = 0;
+  Mesh panel = quad({{-1, 1, -0.5f}}, {{2, 0, 0}}, {{0, 0, 1}});
+  for (const Vec3f& at : panel.positions) panel.texcoords[0].push_back({{(at[0] + 1) / 2, 0.5f}});
+  add(scene, panel, material);
+  add(scene, quad({{0.2f, 0.5f, -2}}, {{2, 0, 0}}, {{0, 0, 4}}), lambertian(0.5f));
+  const auto world = world_of(scene);
+  ASSERT_EQ(world->lights().luminaires().size(), 1u);
+  LampSampling sampling;
+  sampling.most_points = 1024;
+  for (const float side : {-1.0f, 1.0f}) {
+    sampling.lamps.push_back(rectangle_lamp(*world, 0, {{0.5f, 0, 0}}, {{0, 0, 0.5f}}, side < 0 ? 1 : half));
+    sampling.lamps.back().center = {{side / 2, 1, 0}};
+  }
+  for (const float x : {-0.3f, 0.1f, 0.4f}) {
+    const Receiver receiver = Receiver::irradiance({{x, 0, 0.2f}}, {{0, 1, 0}});
+    // The picture fades over a texel, 8 mm, between its sides and at its ends: less than 0.4 % of the light. The
+    // standard error of so many samples is below 0.2 %, that of so many points 0.1 %.
+    expect_near(by_points(*world, receiver, sampling), at_random(*world, receiver, 200'000), 0.01f);
+  }
+}
+
 TEST(DirectLight, LeavesOutAndMultipliesAsItIsTold) {
   const HalfPlane scene(0.4f);
   IntegratorOptions options;

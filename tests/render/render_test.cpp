@@ -268,6 +268,32 @@ TEST(Render, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(take(*world, scene.cameras.at(0), options).pixels, one.pixels);
 }
 
+// Passes that time ends are right at whatever number of samples they reached: the very picture of as many.
+TEST(Render, EndsInTimeWithThePictureOfAsManySamples) {
+  const Scene scene = truth_scene("a_cornell");
+  const auto world = world_of(scene);
+  Progress silent;
+  const auto taken = [&](int most, std::optional<double> seconds, RenderStatistics& statistics) {
+    RenderOptions options = small(LightPart::total);
+    options.samples = most;
+    options.seconds = seconds;
+    return render(*world, scene.cameras.at(0), options, silent, statistics).value().pixels;
+  };
+  RenderStatistics timed, counted;
+  const std::vector<float> picture = taken(1'000'000, 0.2, timed);
+  // A pass takes less than a millisecond.
+  EXPECT_GT(timed.samples, 2);
+  EXPECT_LT(timed.samples, 1'000'000);
+  EXPECT_EQ(taken(timed.samples, {}, counted), picture);
+  EXPECT_EQ(counted.samples, timed.samples);
+  EXPECT_EQ(counted.rays, timed.rays);
+  // Without time there is a picture, too, and with a year no more than is asked for.
+  taken(1'000'000, 0, timed);
+  EXPECT_EQ(timed.samples, 1);
+  taken(3, 3e7, timed);
+  EXPECT_EQ(timed.samples, 3);
+}
+
 TEST(Render, RefusesWhatItCannotDo) {
   const Scene scene = truth_scene("c_furnace");
   const auto world = world_of(scene);
