@@ -112,6 +112,13 @@ class LampLight::Estimate {
   Vec3f light_of_a_point() const {
     return sum([](const Side& side) { return side.sums.mean_if_hidden(); }) / static_cast<float>(count_);
   }
+  /// At most so much is missing because no point so far faces the receiver from above its horizon, as few of a sphere
+  /// do close to it.
+  Vec3f light_untold() const {
+    const Shading& shading = receiver_.shading;
+    const Vec3f most = shading.bsdf.value_without_facets(dot(shading.shading_normal, shading.out), 1);
+    return sum([&](const Side& side) { return side.sums.weight > 0 ? Vec3f{} : most; });
+  }
 
  private:
   struct Side {
@@ -210,11 +217,12 @@ float seen_difference(const Display& display, const Vec3f& one, const Vec3f& oth
 /// The beginning of the order and what follows to twice as many are each spread evenly over the lamp, while even and
 /// odd points would be its two sides. Few points agree by chance, too: n of them tell shares of the lamp to 1/n at
 /// best, which shows where all are hidden and it is dark. Where all are seen it is little beside their light, and not
-/// asked for.
+/// asked for. And halves that tell nothing agree, too.
 float LampLight::seen_error(const Display& display, const Estimate& estimate, const Vec3f& whole) {
   const Vec3f others = whole - estimate.light(), grain = estimate.light_of_a_point() / 2.0f;
-  return std::max(seen_difference(display, others + estimate.light_of_first(), others + estimate.light_of_last()) / 2,
-                  seen_difference(display, whole - grain, whole + grain) / 2);
+  return std::max({seen_difference(display, others + estimate.light_of_first(), others + estimate.light_of_last()) / 2,
+                   seen_difference(display, whole - grain, whole + grain) / 2,
+                   seen_difference(display, whole, whole + estimate.light_untold())});
 }
 
 LampLight::Found LampLight::reflected(const Receiver& receiver, const Vec3f& other, Random& random) const {

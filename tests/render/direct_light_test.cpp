@@ -245,6 +245,28 @@ TEST(DirectLight, EndsWhereMoreIsNotSeen) {
   EXPECT_EQ(rays, 4096);
 }
 
+// Close to a sphere few of its points face who is there, of the first sixteen none at many places. That these tell
+// nothing is no reason to end: nothing is in the way, and nothing is dark.
+TEST(DirectLight, GoesOnUntilPointsTellOfTheLamp) {
+  Scene scene;
+  add_lamp(scene, turned(sphere(0.1f, 3)), 1);
+  const auto world = world_of(scene);
+  ClientLamp ball;
+  ball.kind = ClientLamp::Kind::sphere;
+  ball.radius = 0.1f;
+  ball.radiance = Vec3f::filled(1);
+  ball.luminaire = world->lights().luminaires().at(0).id;
+  const LampSampling sampling{.lamps = {ball}, .most_points = 4096, .shown = as_it_is};
+  const LampLight light(*world, sampling, none, as_they_are);
+  for (int i = 0; i < 64; i++) {
+    const float turn = 0.1f * static_cast<float>(i);
+    const Vec3f away = normalized(Vec3f{{std::cos(turn), std::sin(3 * turn), std::sin(turn)}});
+    Random random(1, 1);
+    const Vec3f found = light.reflected(Receiver::irradiance(away * 0.104f, -away), {}, random).radiance;
+    expect_near(found, unshadowed_irradiance(ball, away * 0.104f, -away), 1e-5f);
+  }
+}
+
 // In penumbras points go on, and then the light errs by little that is seen; in the dark less is seen of them.
 TEST(DirectLight, GoesOnInPenumbras) {
   double all_rays = 0, all_rays_in_the_dark = 0, squares = 0;
