@@ -99,37 +99,42 @@ class LampLight::Estimate {
   }
 
   Vec3f light() const {
-    return sum([](const Side& side) { return side.sums.mean(); });
+    return sum([](const Side& side) { return side.mean(side.sums); });
   }
   /// By the points before the last call of add_points(), and by those since.
   Vec3f light_of_first() const {
-    return sum([](const Side& side) { return side.before.mean(); });
+    return sum([](const Side& side) { return side.mean(side.before); });
   }
   Vec3f light_of_last() const {
-    return sum([](const Side& side) { return (side.sums - side.before).mean(); });
+    return sum([](const Side& side) { return side.mean(side.sums - side.before); });
   }
   /// What one point more or less that is seen would change, where not all are; else 0.
   Vec3f light_of_a_point() const {
     return sum([](const Side& side) { return side.sums.mean_if_hidden(); }) / static_cast<float>(count_);
   }
-  /// At most so much is missing because no point so far faces the receiver from above its horizon, as few of a sphere
-  /// do close to it.
+  /// What may be hidden without any point having told so.
   Vec3f light_untold() const {
-    const Shading& shading = receiver_.shading;
-    const Vec3f most = shading.bsdf.value_without_facets(dot(shading.shading_normal, shading.out), 1);
-    return sum([&](const Side& side) { return side.sums.weight > 0 ? Vec3f{} : most; });
+    return sum([](const Side& side) { return side.sums.weight > 0 ? Vec3f{} : side.open; });
   }
 
  private:
   struct Side {
     Vec3f normal{};
     Vec3f unshadowed{};  // irradiance
+    Vec3f open{};        // about what it reflects of that
     Sums sums{}, before{};
+
+    /// What is reflected of the unshadowed irradiance. Where no point faces the receiver from above its horizon, as few
+    /// of a sphere do close to it, it is taken for lit, as on the page.
+    Vec3f mean(const Sums& of) const { return of.weight > 0 ? of.mean() : open; }
   };
 
   void add_side(const Vec3f& normal) {
     const Vec3f unshadowed = unshadowed_irradiance(placed_.lamp, receiver_.position, normal);
-    if (max_component(unshadowed) > 0) sides_[side_count_++] = {.normal = normal, .unshadowed = unshadowed};
+    if (max_component(unshadowed) <= 0) return;
+    const Shading& shading = receiver_.shading;
+    const Vec3f open = shading.bsdf.value_without_facets(dot(shading.shading_normal, shading.out), 1);
+    sides_[side_count_++] = {.normal = normal, .unshadowed = unshadowed, .open = open};
   }
 
   /// How far before a point of the lamp a ray may end, so that the surface which the lamp stands for does not hide it.
@@ -217,12 +222,12 @@ float seen_difference(const Display& display, const Vec3f& one, const Vec3f& oth
 /// The beginning of the order and what follows to twice as many are each spread evenly over the lamp, while even and
 /// odd points would be its two sides. Few points agree by chance, too: n of them tell shares of the lamp to 1/n at
 /// best, which shows where all are hidden and it is dark. Where all are seen it is little beside their light, and not
-/// asked for. And halves that tell nothing agree, too.
+/// asked for. And points that tell nothing always agree.
 float LampLight::seen_error(const Display& display, const Estimate& estimate, const Vec3f& whole) {
   const Vec3f others = whole - estimate.light(), grain = estimate.light_of_a_point() / 2.0f;
   return std::max({seen_difference(display, others + estimate.light_of_first(), others + estimate.light_of_last()) / 2,
                    seen_difference(display, whole - grain, whole + grain) / 2,
-                   seen_difference(display, whole, whole + estimate.light_untold())});
+                   seen_difference(display, whole - estimate.light_untold(), whole)});
 }
 
 LampLight::Found LampLight::reflected(const Receiver& receiver, const Vec3f& other, Random& random) const {

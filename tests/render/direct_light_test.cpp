@@ -246,7 +246,7 @@ TEST(DirectLight, EndsWhereMoreIsNotSeen) {
 }
 
 // Close to a sphere few of its points face who is there, of the first sixteen none at many places. That these tell
-// nothing is no reason to end: nothing is in the way, and nothing is dark.
+// nothing is no reason to end, nor to be dark where there are no more.
 TEST(DirectLight, GoesOnUntilPointsTellOfTheLamp) {
   Scene scene;
   add_lamp(scene, turned(sphere(0.1f, 3)), 1);
@@ -256,15 +256,26 @@ TEST(DirectLight, GoesOnUntilPointsTellOfTheLamp) {
   ball.radius = 0.1f;
   ball.radiance = Vec3f::filled(1);
   ball.luminaire = world->lights().luminaires().at(0).id;
-  const LampSampling sampling{.lamps = {ball}, .most_points = 4096, .shown = as_it_is};
-  const LampLight light(*world, sampling, none, as_they_are);
-  for (int i = 0; i < 64; i++) {
+  LampSampling sampling{.lamps = {ball}, .most_points = 4096, .shown = as_it_is};
+  const auto receiver = [](int i) {
     const float turn = 0.1f * static_cast<float>(i);
     const Vec3f away = normalized(Vec3f{{std::cos(turn), std::sin(3 * turn), std::sin(turn)}});
+    return Receiver::irradiance(away * 0.104f, -away);
+  };
+  const auto found = [&](const World& scene_world, const Receiver& at) {
     Random random(1, 1);
-    const Vec3f found = light.reflected(Receiver::irradiance(away * 0.104f, -away), {}, random).radiance;
-    expect_near(found, unshadowed_irradiance(ball, away * 0.104f, -away), 1e-5f);
+    return LampLight(scene_world, sampling, none, as_they_are).reflected(at, {}, random).radiance;
+  };
+  for (const int most : {16, 4096}) {
+    sampling.most_points = most;
+    for (int i = 0; i < 64; i++)
+      expect_near(found(*world, receiver(i)),
+                  unshadowed_irradiance(ball, receiver(i).position, receiver(i).shading.normal), 1e-5f);
   }
+  // And nothing is lit that a shell between the two hides.
+  add(scene, turned(sphere(0.102f, 3)), lambertian(0));
+  const auto hidden = world_of(scene);
+  for (int i = 0; i < 64; i++) EXPECT_EQ(found(*hidden, receiver(i)), Vec3f{});
 }
 
 // In penumbras points go on, and then the light errs by little that is seen; in the dark less is seen of them.
