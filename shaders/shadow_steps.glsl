@@ -2,7 +2,8 @@
 //
 // A full-screen pass over tiles of a view: by which step of what is shown a lamp's newest samples change it, at all but a few of a tile's pixels, as
 // a multiple of the largest step that is not seen. What is shown has half of the samples, so that the step is half of what the two halves differ by: the error of
-// all of them, or less. Comes behind seen_surface.glsl, three.js's chunk common, direct_light.glsl and permitted_difference.glsl.
+// all of them, or less. Comes behind direct_light.glsl, three.js's chunk colorspace_pars_fragment, seen_surface.glsl
+// and permitted_difference.glsl.
 
 uniform sampler2D picture;      // what materials read now (direct_light.glsl)
 uniform sampler2D sums[ 3 ];    // of the lamp, of each colour
@@ -21,8 +22,7 @@ const vec3 LUMINANCE = vec3( 0.2126, 0.7152, 0.0722 );
 
 float encode( float light ) {
 
-	float x = ( clamp( light, 0.0, 1.0 ) + REFLECTED ) / ( 1.0 + REFLECTED );
-	return x <= 0.0031308 ? 12.92 * x : 1.055 * pow( x, 1.0 / 2.4 ) - 0.055;
+	return sRGBTransferOETF( vec4( ( clamp( light, 0.0, 1.0 ) + REFLECTED ) / ( 1.0 + REFLECTED ) ) ).r;
 
 }
 

@@ -186,29 +186,12 @@ std::vector<ClientLamp> describe_surface(const TraceScene& scene, const Luminair
   return cut_to_what_shines(scene, luminaire, *lamp, most);
 }
 
-ClientLamp describe_lamp(const Lamp& source, const LuminaireId& id) {
-  ClientLamp lamp;
-  lamp.luminaire = id;
-  switch (source.kind) {
-    case Lamp::Kind::point: lamp.kind = ClientLamp::Kind::point; break;
-    case Lamp::Kind::spot: lamp.kind = ClientLamp::Kind::spot; break;
-    case Lamp::Kind::sun: lamp.kind = ClientLamp::Kind::sun; break;
-  }
-  lamp.name = source.name;
-  lamp.center = source.position;
-  lamp.normal = source.direction;
-  lamp.intensity = source.intensity;
-  lamp.range = source.range;
-  lamp.inner_cone = source.inner_cone;
-  lamp.outer_cone = source.outer_cone;
-  return lamp;
-}
-
 // The lamps that stand for a luminaire, at most `most`; none where no simple shape does.
 std::vector<ClientLamp> describe(const TraceScene& scene, const Luminaire& luminaire, size_t most) {
   switch (luminaire.kind()) {
     case Luminaire::Kind::lamp: {
-      ClientLamp lamp = describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)], luminaire.id);
+      ClientLamp lamp = describe_lamp(scene.scene().lamps[static_cast<size_t>(luminaire.index)]);
+      lamp.luminaire = luminaire.id;
       lamp.power = mean_of_channels(luminaire.power);
       return {std::move(lamp)};
     }

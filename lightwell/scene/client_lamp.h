@@ -31,4 +31,12 @@ struct ClientLamp {
   bool operator==(const ClientLamp&) const = default;
 };
 
+struct Lamp;
+
+/// A lamp without extent of a scene; what luminaire it is and its power are left to the caller.
+ClientLamp describe_lamp(const Lamp& source);
+
+/// The inverse; the lamp must be a point, a spot or a sun.
+Lamp punctual_lamp(const ClientLamp& lamp);
+
 }  // namespace lightwell

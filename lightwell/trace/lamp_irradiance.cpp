@@ -5,8 +5,8 @@
 #include <numbers>
 #include <span>
 
-#include "lightwell/base/assert.h"
 #include "lightwell/trace/punctual_light.h"
+#include "lightwell/trace/sampling.h"
 
 namespace lightwell {
 namespace {
@@ -44,9 +44,9 @@ double of_rectangle(const ClientLamp& lamp, const Vec3d& position, const Vec3d& 
 double of_disc(const ClientLamp& lamp, const Vec3d& position, const Vec3d& normal) {
   constexpr size_t corners = 64;
   constexpr double step = 2 * std::numbers::pi / corners;
-  const Vec3d center = lamp.center.cast<double>() - position, axis = lamp.normal.cast<double>();
-  const Vec3d u = normalized(cross(std::abs(axis[0]) < 0.5 ? Vec3d{{1, 0, 0}} : Vec3d{{0, 1, 0}}, axis));
-  const Vec3d v = cross(axis, u);
+  const Frame frame(lamp.normal);
+  const Vec3d center = lamp.center.cast<double>() - position;
+  const Vec3d u = frame.x.cast<double>(), v = frame.y.cast<double>();
   const double radius = static_cast<double>(lamp.radius) * std::sqrt(step / std::sin(step));
   std::array<Vec3d, corners> rim;
   for (size_t i = 0; i < corners; i++) {
@@ -67,22 +67,6 @@ double of_sphere(double cosine, double share) {
 }
 
 }  // namespace
-
-Lamp punctual_lamp(const ClientLamp& lamp) {
-  LW_ASSERT(lamp.kind == ClientLamp::Kind::point || lamp.kind == ClientLamp::Kind::spot ||
-            lamp.kind == ClientLamp::Kind::sun);
-  Lamp source;
-  source.kind = lamp.kind == ClientLamp::Kind::sun    ? Lamp::Kind::sun
-                : lamp.kind == ClientLamp::Kind::spot ? Lamp::Kind::spot
-                                                      : Lamp::Kind::point;
-  source.position = lamp.center;
-  source.direction = lamp.normal;
-  source.intensity = lamp.intensity;
-  source.range = lamp.range;
-  source.inner_cone = lamp.inner_cone;
-  source.outer_cone = lamp.outer_cone;
-  return source;
-}
 
 Vec3f unshadowed_irradiance(const ClientLamp& lamp, const Vec3f& position, const Vec3f& normal) {
   switch (lamp.kind) {

@@ -101,17 +101,7 @@ TEST(LampIrradiance, OfLampsWithoutExtentIsThatOfThePathTracer) {
     scene.lamps.push_back(source);
     // A world needs a surface.
     add(scene, quad({{5, 5, 5}}, {{1, 0, 0}}, {{0, 1, 0}}), lambertian(0.5f));
-    ClientLamp lamp;
-    lamp.kind = source.kind == Lamp::Kind::sun    ? ClientLamp::Kind::sun
-                : source.kind == Lamp::Kind::spot ? ClientLamp::Kind::spot
-                                                  : ClientLamp::Kind::point;
-    lamp.center = source.position;
-    lamp.normal = source.direction;
-    lamp.intensity = source.intensity;
-    lamp.range = source.range;
-    lamp.inner_cone = source.inner_cone;
-    lamp.outer_cone = source.outer_cone;
-    expect_as_sampled(scene, lamp, 1);
+    expect_as_sampled(scene, describe_lamp(source), 1);
   }
 }
 

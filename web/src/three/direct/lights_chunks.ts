@@ -9,6 +9,12 @@ import { three } from './kit.js';
 export const DECAY_OF_LAMPS = -100;
 const LOOKUP = /spotLightCoord = [^;]*;\s*inSpotLightMap = [^;]*;\s*spotColor = [^;]*;\s*directLight\.color = [^;]*;/;
 
+/** What passes read lamps and their shares by, as materials do. */
+export function textForPasses(): string {
+  // For the number three.js would write that of the scene's lights.
+  return ['precision highp float;precision highp sampler2D;', three.ShaderChunk.common, lamps.replaceAll('NUM_SPOT_LIGHT_MAPS', '1')].join('\n');
+}
+
 /**
  * Lets materials be lit by the lamps of packs, once a page. A material that was compiled before has no such spot light, and is compiled
  * anew when one comes. Throws when three.js's text is another.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { BufferGeometry, Camera, Matrix4, Object3D, Texture, Vector4, WebGLRenderer, WebGLRenderTarget } from 'three';
 import seenSurface from '../../../../shaders/seen_surface.glsl';
+import keptShader from '../../../../shaders/kept_share.glsl';
 import lookupShader from '../../../../shaders/shadow_lookup.glsl';
 import sharesShader from '../../../../shaders/shadow_shares.glsl';
 import { createScreen, FullScreen } from './full_screen.js';
-import { KeptShares } from './kept_shares.js';
 import { three } from './kit.js';
+import { textForPasses } from './lights_chunks.js';
 import type { ShadowMap } from './shadow_map.js';
 import type { Surfaces } from './surfaces.js';
 
@@ -36,7 +37,7 @@ export class ScreenShares {
   readonly #lookups = new Map<string, FullScreen>();
   readonly #shares: FullScreen;
   readonly #table: FullScreen;
-  readonly #kept: KeptShares;
+  readonly #kept: FullScreen;
   readonly #viewport: Vector4 = new three.Vector4();
   readonly #place: Matrix4 = new three.Matrix4();
   readonly #projection: Matrix4 = new three.Matrix4();
@@ -66,7 +67,7 @@ export class ScreenShares {
       start: { value: null },
     });
     this.#table = new FullScreen(this.#screen, COPY, { table: { value: null } });
-    this.#kept = new KeptShares(this.#screen);
+    this.#kept = new FullScreen(this.#screen, `${textForPasses()}\n${keptShader}`, { picture: { value: null }, share: { value: 0 } });
   }
 
   /** In pixels of the picture, and how many there are of them, or fewer, in shares. */
@@ -111,7 +112,7 @@ export class ScreenShares {
   /** Takes the memory again; the sums of some shares are made from the picture, those of others are to begin anew, and so is what is seen. */
   recall(renderer: WebGLRenderer, shares: number[]): void {
     for (const target of [this.#surfaces, this.#spare, ...this.#sums]) renderer.initRenderTarget(target);
-    for (const share of shares) this.#kept.draw(renderer, this.#sums[share]!, this.picture, share, SUMS);
+    for (const share of shares) this.#kept.draw(renderer, this.#sums[share]!, { picture: this.picture.texture, share });
   }
 
   /** Draws what is seen anew. */

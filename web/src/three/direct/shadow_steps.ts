@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type { BufferGeometry, Camera, Object3D, WebGLRenderer, WebGLRenderTarget } from 'three';
-import lamps from '../../../../shaders/direct_light.glsl';
 import permitted from '../../../../shaders/permitted_difference.glsl';
 import seenSurface from '../../../../shaders/seen_surface.glsl';
 import steps from '../../../../shaders/shadow_steps.glsl';
 import { createScreen, FullScreen } from './full_screen.js';
 import { three } from './kit.js';
+import { textForPasses } from './lights_chunks.js';
 import type { ScreenShares } from './screen_shares.js';
 import type { Surfaces } from './surfaces.js';
 
@@ -27,9 +27,7 @@ export class ShadowSteps {
   constructor() {
     const names = ['surfaces', 'projection', 'picture', 'sums', 'colours', 'share', 'exposure', 'tiles'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
-    // For the number three.js would write that of the scene's lights.
-    const oneMap = lamps.replaceAll('NUM_SPOT_LIGHT_MAPS', '1');
-    const texts = [seenSurface, three.ShaderChunk.common, oneMap, permitted, steps];
+    const texts = [textForPasses(), three.ShaderChunk.colorspace_pars_fragment, seenSurface, permitted, steps];
     this.#pass = new FullScreen(this.#screen, texts.join('\n'), uniforms);
     const nearest = { minFilter: three.NearestFilter, magFilter: three.NearestFilter };
     this.#tiles = new three.WebGLRenderTarget(...TILES, { ...nearest, type: three.FloatType, depthBuffer: false });
