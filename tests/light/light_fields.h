@@ -49,10 +49,10 @@ inline Moments uniform_light(const Vec3f& radiance) {
 /// of each lamp's light at a node. One node in ten is invalid when `solids` is set, in clumps.
 inline LightGrid lamp_grid(const GridShape& shape, uint64_t seed, float noise = 0, bool solids = false) {
   Random random(seed, 0);
-  struct Lamp {
+  struct Bulb {
     Vec3f place, power;
   };
-  std::vector<Lamp> lamps;
+  std::vector<Bulb> lamps;
   const Vec3f size = shape.hi() - shape.lo;
   for (int i = 0; i < 8; i++) {
     const Vec3f place = shape.lo + size * random_colour(random);
@@ -64,7 +64,7 @@ inline LightGrid lamp_grid(const GridShape& shape, uint64_t seed, float noise = 
   for (size_t i = 0; i < shape.count(); i++) {
     const Vec3i n = shape.node(i);
     Moments m = uniform_light({{0.2f, 0.15f, 0.1f}});
-    for (const Lamp& lamp : lamps) {
+    for (const Bulb& lamp : lamps) {
       const Vec3f to = lamp.place - shape.position(n);
       const float fluctuation = std::max(0.0f, 1 + noise * 1.732f * (2 * random.uniform() - 1));
       m += parallel_light(normalized(to), lamp.power * (fluctuation / (dot(to, to) + 0.02f * dot(size, size))));
