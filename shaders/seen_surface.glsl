@@ -24,12 +24,18 @@ vec3 unpackShading( float packed ) {
 
 }
 
+// A place at a distance along a view, in the view's space; `at` from -1 to 1 across its picture.
+vec3 positionIn( mat4 view, vec2 at, float distance ) {
+
+	float w = view[ 3 ][ 3 ] - view[ 2 ][ 3 ] * distance;
+	vec2 xy = at * w + vec2( view[ 2 ].xy ) * distance - view[ 3 ].xy;
+	return vec3( xy / vec2( view[ 0 ][ 0 ], view[ 1 ][ 1 ] ), - distance );
+
+}
+
 // What is seen at a place of the picture, in pixels, in the camera's space.
 vec3 positionOf( vec2 place, float distance ) {
 
-	vec2 at = 2.0 * place / vec2( textureSize( surfaces, 0 ) ) - 1.0;
-	float w = projection[ 3 ][ 3 ] - projection[ 2 ][ 3 ] * distance;
-	vec2 xy = at * w + vec2( projection[ 2 ].xy ) * distance - projection[ 3 ].xy;
-	return vec3( xy / vec2( projection[ 0 ][ 0 ], projection[ 1 ][ 1 ] ), - distance );
+	return positionIn( projection, 2.0 * place / vec2( textureSize( surfaces, 0 ) ) - 1.0, distance );
 
 }

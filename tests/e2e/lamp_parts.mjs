@@ -42,3 +42,12 @@ export function partsOfDisc([x, y, z], radius, steps = 400) {
     return [[x + out * Math.cos(turn), y, z + out * Math.sin(turn)], [0, -1, 0], area];
   });
 }
+
+/** A lamp so bright that its penumbra behind the edge of a half-plane at x < 0, y = 1 goes through all of the screen's values on a floor at y = 0. */
+export const LAMP_BEHIND_EDGE = { kind: 'rectangle', center: [0, 2, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.5], radiance: [10, 10, 10] };
+
+/** The irradiance that the floor has of it at x. */
+export function irradianceBehindEdge(x) {
+  const left = Math.min(0.5, Math.max(-0.5, -x));
+  return 10 * summed(partsOfRectangle([left, 0.5], 2, [-0.5, 0.5], 100), [x, 0, 0], [0, 1, 0]);
+}

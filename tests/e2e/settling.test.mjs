@@ -4,8 +4,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { launch } from './browser.mjs';
-import { partsOfRectangle, summed } from './lamp_parts.mjs';
+import { irradianceBehindEdge, LAMP_BEHIND_EDGE } from './lamp_parts.mjs';
 import { forAllTests } from './lifetime.mjs';
+import { stepsBetween } from './screen_steps.mjs';
 import { openScript } from './test_page.mjs';
 
 const browser = await forAllTests(launch());
@@ -15,27 +16,14 @@ const open = async (t) => {
   return opened;
 };
 
-/** So bright that the penumbra goes through all of the screen's values. */
-const LAMP = { kind: 'rectangle', center: [0, 2, 0], normal: [0, -1, 0], u: [0.5, 0, 0], v: [0, 0, 0.5], radiance: [10, 10, 10] };
-
-/** As a screen shows it, which reflects a little of the room's light: 1 of 200 cd/m2. */
-function encode(light) {
-  const x = (Math.min(Math.max(light, 0), 1) + 0.005) / 1.005;
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
-}
-
-/** The irradiance of the floor at a pixel of a row of so many, behind the edge. */
-function irradianceAt(i, pixels) {
-  const x = -0.48 + (0.96 * (i + 0.5)) / pixels;
-  const left = Math.min(0.5, Math.max(-0.5, -x));
-  return 10 * summed(partsOfRectangle([left, 0.5], 2, [-0.5, 0.5], 100), [x, 0, 0], [0, 1, 0]);
-}
+/** The irradiance of the floor at a pixel of a row of so many. */
+const irradianceAt = (i, pixels) => irradianceBehindEdge(-0.48 + (0.96 * (i + 0.5)) / pixels);
 
 test('what the page says of how far off a penumbra is bounds how far off it is', async (t) => {
   const { page, errors } = await open(t);
-  const { shown, moved } = await page.evaluate((lamp) => shownOf(lamp, true), LAMP);
+  const { shown, moved } = await page.evaluate((lamp) => shownOf(lamp, true), LAMP_BEHIND_EDGE);
   for (const { row, samples, error } of shown) {
-    const off = Math.max(...row.map((value, i) => 255 * Math.abs(encode(value / Math.PI) - encode(irradianceAt(i, row.length) / Math.PI))));
+    const off = Math.max(...row.map((value, i) => stepsBetween(value, irradianceAt(i, row.length))));
     t.diagnostic(`${samples} samples: said ${error.toFixed(2)}, is ${off.toFixed(2)}`);
     // What is said is taken at some of the pixels: at others it may be a little more.
     assert.ok(off <= Math.max(1, 1.2 * error), `${samples} samples are off by ${off}, said ${error}`);
@@ -47,7 +35,7 @@ test('what the page says of how far off a penumbra is bounds how far off it is',
 
 test('a lamp with nothing in its way is at rest at once, and so it is dimmed; where it gets much brighter its shadow is looked at again', async (t) => {
   const { page, errors } = await open(t);
-  const { shown, brighter } = await page.evaluate((lamp) => shownOf(lamp, false), LAMP);
+  const { shown, brighter } = await page.evaluate((lamp) => shownOf(lamp, false), LAMP_BEHIND_EDGE);
   assert.deepEqual(shown.map(({ error }) => error), [0]);
   assert.deepEqual(brighter, [Infinity, Infinity, 16]);
   assert.deepEqual(errors, []);

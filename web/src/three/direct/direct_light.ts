@@ -16,11 +16,12 @@ import type { FrameScheduler, FrameTask } from '../frame_scheduler.js';
 import { aside } from './aside.js';
 import { letLampsThrough } from './casters.js';
 import { three, useKit } from './kit.js';
+import { KnownShares } from './known_shares.js';
 import { createLamp, formOf, type Lamp, type PlacedLamp, placed } from './lamp.js';
 import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
 import { LampTable } from './lamp_table.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
-import { begin, isSettled, Rounds, type Shadow, strengthOf } from './rounds.js';
+import { begin, FIRST_SHOWN, isSettled, Rounds, type Shadow, strengthOf } from './rounds.js';
 import { middleMap, SampleMaps } from './sample_maps.js';
 import { ScreenShares } from './screen_shares.js';
 import type { ShadowMap } from './shadow_map.js';
@@ -75,6 +76,7 @@ export class DirectLight {
   readonly #sky: SkyLamp;
   readonly #skyInGrids: SkyInGrids;
   readonly #steps: ShadowSteps;
+  readonly #known: KnownShares;
   readonly #rounds = new Rounds();
   /** Of the round whose shadows are being measured. */
   #measuring: symbol | null = null;
@@ -110,9 +112,10 @@ export class DirectLight {
     this.#shares = new ScreenShares(this.lamps.length + (hasSky ? 2 : 0), hasSky, this.#table.width);
     this.#skyInGrids = new SkyInGrids();
     this.#steps = new ShadowSteps();
+    this.#known = new KnownShares();
     this.#shadows = this.lamps.map((lamp) => {
       const middle = middleMap(lamp.definition, definitions.length);
-      return { lamp, middle, form: null, count: -1, off: Infinity, strength: 0 };
+      return { lamp, middle, form: null, count: -1, shown: 0, off: Infinity, strength: 0 };
     });
     this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
     this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table.texture;
@@ -162,8 +165,7 @@ export class DirectLight {
   grow(): void {
     this.#seenStale = true;
     this.#growing ??= setTimeout(() => {
-      this.#growing = undefined;
-      this.restart();
+      this.finish();
     }, Math.max(0, this.#mapsTime + INTERVAL - performance.now()));
   }
 
@@ -172,11 +174,18 @@ export class DirectLight {
     if (this.#growing === undefined) return;
     clearTimeout(this.#growing);
     this.#growing = undefined;
-    this.restart();
+    this.#known.cap(FIRST_SHOWN);
+    this.#renew();
   }
 
   /** Begins anew, after the GPU has lost all or the scene has changed. */
   restart(): void {
+    this.#known.forgetAll();
+    for (const shadow of this.#shadows) shadow.shown = 0;
+    this.#renew();
+  }
+
+  #renew(): void {
     this.#seenStale = true;
     for (const shadow of this.#shadows) shadow.form = null;
     this.#surroundings.changed();
@@ -187,7 +196,7 @@ export class DirectLight {
     this.#task.dispose();
     for (const { middle } of this.#shadows) middle.dispose();
     const { geometry, material } = this.hook;
-    for (const part of [this.#surfaces, this.#shares, this.#scratch, this.#steps, this.#skyInGrids, this.#table, this.carrier, geometry, material]) part.dispose();
+    for (const part of [this.#surfaces, this.#shares, this.#scratch, this.#steps, this.#known, this.#skyInGrids, this.#table, this.carrier, geometry, material]) part.dispose();
   }
 
   /** Those whose light is seen; the sky is a lamp only where it has soft shadows. */
@@ -226,11 +235,11 @@ export class DirectLight {
     const shining = this.#shining();
     const shadowed = this.#floats && this.#kind !== 'off' && shining.length > 0 && !('isArrayCamera' in camera);
     if (this.#floats) {
-      const viewport = shining.length > 0 && this.#shares.see(renderer, camera);
       this.#drawing = true;
       aside(renderer, () => {
-        if (shadowed) this.#look(camera, shining, viewport);
-        const shown = shining.filter((shadow) => !isSky(shadow.lamp) || (shadowed && showsSky(shadow)));
+        const moved = shining.length > 0 && this.#shares.see(renderer, camera, () => this.#leave(shining));
+        if (shadowed) this.#look(camera, shining, moved);
+        const shown = shining.filter((shadow) => !isSky(shadow.lamp) || (shadowed && this.#showsSky(shadow)));
         this.#sky.replaceInGrids(shown.some(({ lamp }) => isSky(lamp)));
         this.#writeTable(camera, shown, shadowed);
         this.#shares.showTable(renderer, this.#table.texture);
@@ -245,12 +254,14 @@ export class DirectLight {
     const root = (this.#root = topOf(this.hook));
     const signature = signatureOf(root);
     if (signature !== this.#signature) {
-      for (const shadow of this.#shadows) shadow.form = null;
+      for (const shadow of this.#shadows) Object.assign(shadow, { form: null, shown: 0 });
+      this.#known.forgetAll();
       this.#seenStale = true;
     }
     this.#signature = signature;
     this.#camera = camera;
     if (moved || this.#seenStale) {
+      if (!moved) this.#leave(shining);
       for (const shadow of this.#shadows) begin(shadow, -1);
       this.#surfacesStale = true;
       this.#seenStale = false;
@@ -262,13 +273,18 @@ export class DirectLight {
       const now = formOf(form);
       if (isSky(shadow.lamp)) {
         const isNew = this.#sky.renew();
-        if (isNew) this.#skyInGrids.forget();
+        if (isNew) {
+          this.#skyInGrids.forget();
+          this.#known.forget(this.#shareOf(shadow));
+        }
         if (shadow.form === null || isNew) this.#mapsTime = performance.now();
         if (shadow.form === null || isNew || shadow.count < 0) this.#begin(shadow, now, 0);
         if (!this.#isSettled(shadow)) this.#scratch.of(shadow.lamp.definition, renderer);
         continue;
       }
-      if (shadow.form === null || now.some((x, i) => x !== shadow.form![i])) {
+      const changed = shadow.form?.some((x, i) => x !== now[i]);
+      if (changed === true) this.#known.forget(this.#shareOf(shadow));
+      if (changed !== false) {
         this.#drawMap(shadow.middle, form, middleOf(form));
         this.#mapsTime = performance.now();
         this.#begin(shadow, now, -1);
@@ -276,16 +292,54 @@ export class DirectLight {
       if (!this.#isSettled(shadow)) this.#scratch.of(shadow.lamp.definition, renderer);
       if (shadow.count >= 0) continue;
       this.#drawSurfaces();
-      this.#shares.add(renderer, this.#shadows.indexOf(shadow), shadow.middle, true, true);
+      this.#shares.add(renderer, this.#shareOf(shadow), shadow.middle, true, true);
       this.#begin(shadow, now, 0);
       this.#showStale = true;
     }
-    if (shining.some((shadow) => isSky(shadow.lamp) && showsSky(shadow)) && this.#drawSkyInGrids(camera)) this.#showStale = true;
-    if (this.#showStale) this.#shares.show(renderer);
+    if (shining.some((shadow) => isSky(shadow.lamp) && this.#showsSky(shadow)) && this.#drawSkyInGrids(camera)) this.#showStale = true;
+    if (this.#showStale) this.#show();
     this.#showStale = false;
     if (this.samples === Infinity) this.#rest();
     if (this.#takesTurns(camera, moved)) this.#task.cancel();
     else if (!this.#paused && this.samples < Infinity) this.#task.request();
+  }
+
+  /** Keeps what the picture shows of a view that is about to be left, unless a view before that knew more. */
+  #leave(shining: Shadow[]): void {
+    if (!this.#floats || this.#kind !== 'soft' || !shining.every(({ shown, form }) => shown > 0 && form !== null)) return;
+    const points: number[] = [];
+    for (const shadow of shining) for (const share of this.#sharesOf(shadow)) points[share] = shadow.shown;
+    this.#known.keep(this.#surroundings.renderer, this.#shares, points);
+  }
+
+  /** Shows all shares as they are now; what is known of a shadow beside its own samples counts the less, the more of all those it has. */
+  #show(): void {
+    const weights: number[] = [];
+    let readyForSums = false;
+    for (const shadow of this.#shining()) {
+      const own = Math.max(0, isSky(shadow.lamp) && isYoung(shadow) ? 0 : shadow.count);
+      if (isSky(shadow.lamp)) readyForSums = own === 0;
+      const left = this.#isSettled(shadow) ? 0 : 1 - own / this.#enough(shadow);
+      const known = left * this.#known.pointsOf(this.#shareOf(shadow));
+      for (const share of this.#sharesOf(shadow)) weights[share] = known > 0 ? known / (own + known) : 0;
+      shadow.shown = own < FIRST_SHOWN ? 0 : own + known;
+    }
+    this.#shares.show(this.#surroundings.renderer, this.#known, weights, readyForSums);
+  }
+
+  #shareOf(shadow: Shadow): number {
+    return this.#shadows.indexOf(shadow);
+  }
+
+  /** The sky's are those of its colours. */
+  #sharesOf(shadow: Shadow): number[] {
+    const share = this.#shareOf(shadow);
+    return isSky(shadow.lamp) ? [share, share + 1, share + 2] : [share];
+  }
+
+  /** Whether the sky is shown as a lamp. */
+  #showsSky(shadow: Shadow): boolean {
+    return !isYoung(shadow) || this.#known.pointsOf(this.#shareOf(shadow)) > 0;
   }
 
   #begin(shadow: Shadow, form: number[], count: number): void {
@@ -313,6 +367,7 @@ export class DirectLight {
     this.#resting = this.#surfacesStale = true;
     this.#shares.rest();
     this.#scratch.dispose();
+    this.#known.forgetAll();
     for (const shadow of this.#shadows) if (!this.#isSettled(shadow)) begin(shadow, -1);
   }
 
@@ -322,7 +377,7 @@ export class DirectLight {
     this.#rounds.forget();
     // Of the sums the ratios are left: whose samples go on begins anew, and is shown as it was until then.
     for (const shadow of this.#open()) begin(shadow, Math.min(shadow.count, 0));
-    const kept = this.#shadows.flatMap(({ lamp, count }, share) => (count < 0 ? [] : isSky(lamp) ? [share, share + 1, share + 2] : [share]));
+    const kept = this.#shadows.filter(({ count }) => count >= 0).flatMap((shadow) => this.#sharesOf(shadow));
     this.#shares.recall(this.#surroundings.renderer, kept);
   }
 
@@ -352,7 +407,7 @@ export class DirectLight {
   }
 
   #writeTable(camera: Camera, shown: Shadow[], shadowed: boolean): void {
-    const lamps = shown.map((shadow): [Lamp, number] => [shadow.lamp, this.#shadows.indexOf(shadow)]);
+    const lamps = shown.map((shadow): [Lamp, number] => [shadow.lamp, this.#shareOf(shadow)]);
     this.#table.write(camera, lamps, shadowed, this.#shares, this.#sky.texels(camera.matrixWorldInverse));
   }
 
@@ -382,7 +437,7 @@ export class DirectLight {
       this.#drawSurfaces();
       this.#steps.see(this.#surfaces, this.#root!, this.#camera!, this.#shares);
       const found = round.map((shadow) => this.#measure(shadow, exposure));
-      this.#shares.show(renderer);
+      this.#show();
       void Promise.all(found).then(
         (offs) => this.#measuring === measuring && this.#note(round, offs, exposure),
         () => {
@@ -395,15 +450,16 @@ export class DirectLight {
   }
 
   async #measure(shadow: Shadow, exposure: number): Promise<number> {
-    const { lamp, count } = shadow;
     // Before the sky is shown its light is that of the grids.
-    if (isSky(lamp) && count < 2 * POINTS_TO_SHOW_SKY) return Infinity;
-    return this.#steps.measure(this.#surroundings.renderer, this.#shares, this.#shadows.indexOf(shadow), isSky(lamp) ? 3 : 1, exposure);
+    if (isSky(shadow.lamp) && shadow.count < 2 * POINTS_TO_SHOW_SKY) return Infinity;
+    return this.#steps.measure(this.#surroundings.renderer, this.#shares, this.#shareOf(shadow), this.#sharesOf(shadow).length, exposure);
   }
 
   #note(round: Shadow[], offs: number[], exposure: number): void {
     this.#measuring = null;
     round.forEach((shadow, i) => Object.assign(shadow, { off: offs[i], strength: strengthOf(shadow, exposure) }));
+    // What is good enough without is shown without what was known.
+    this.#showStale ||= round.some((shadow) => this.#isSettled(shadow) && this.#known.pointsOf(this.#shareOf(shadow)) > 0);
     if (this.samples < Infinity) this.#task.request();
     else this.#surroundings.changed();
   }
@@ -414,7 +470,7 @@ export class DirectLight {
     const form = placed(shadow.lamp);
     this.#drawSurfaces();
     this.#drawMap(map, form, isSky(shadow.lamp) ? this.#sky.pointOf(shadow.count) : pointOf(form, shadow.count));
-    const share = this.#shadows.indexOf(shadow);
+    const share = this.#shareOf(shadow);
     const { color = [1] } = map.point;
     color.forEach((strength, channel) => this.#shares.add(renderer, share + channel, map, shadow.count === 0, false, strength));
     shadow.count++;
@@ -423,8 +479,8 @@ export class DirectLight {
 
 const isSky = ({ definition }: Lamp) => definition.kind === 'sky';
 
-/** Whether the sky is shown as a lamp. */
-const showsSky = ({ count }: Shadow) => count >= POINTS_TO_SHOW_SKY;
+/** Of the sky: whether its own samples are too few to be shown. */
+const isYoung = ({ count }: Shadow) => count < POINTS_TO_SHOW_SKY;
 
 /** Whether a visitor wants nothing to change by itself: then the picture is shown when it is at rest. */
 const isStill = () => matchMedia('(prefers-reduced-motion: reduce)').matches;

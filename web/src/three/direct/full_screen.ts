@@ -5,6 +5,10 @@ import { three } from './kit.js';
 const CORNERS = new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]);
 const VERTEX_SHADER = 'in vec3 position;void main(){gl_Position=vec4(position,1.0);}';
 
+/** The text of a pass whose target becomes what a texture is, texel for texel. */
+export const COPY = `precision highp float;uniform highp sampler2D copied;out vec4 result;
+void main(){result=texelFetch(copied,ivec2(gl_FragCoord.xy),0);}`;
+
 /** What all passes draw: one triangle over everything. */
 export const createScreen = (): BufferGeometry =>
   new three.BufferGeometry().setAttribute('position', new three.BufferAttribute(CORNERS, 3));

@@ -3,7 +3,7 @@ import type { Lamp } from './lamp.js';
 import type { ShadowMap } from './shadow_map.js';
 
 /** From so many points of a lamp its shadow is shown. */
-const FIRST_SHOWN = 16;
+export const FIRST_SHOWN = 16;
 /** Of a lamp that has become this much brighter, as it is shown, the shadow may be seen to be off where it was not. */
 const MUCH_BRIGHTER = 2;
 
@@ -15,6 +15,8 @@ export interface Shadow {
   form: number[] | null;
   /** Points whose samples are in the sums: 0 when only the middle is, -1 when nothing is. */
   count: number;
+  /** On how many points what the picture shows of it rests; 0: on its middle. */
+  shown: number;
   /** By how many steps that are just not seen it may be off, at the strength that the lamp then had; Infinity: that is not known. */
   off: number;
   strength: number;
@@ -22,7 +24,7 @@ export interface Shadow {
 
 /** Begins anew with what is known of a shadow. */
 export function begin(shadow: Shadow, count: number): void {
-  Object.assign(shadow, { count, off: Infinity });
+  Object.assign(shadow, { count, shown: 0, off: Infinity });
 }
 
 /** How bright the lamp's light is shown. */

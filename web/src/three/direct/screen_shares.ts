@@ -4,8 +4,9 @@ import seenSurface from '../../../../shaders/seen_surface.glsl';
 import keptShader from '../../../../shaders/kept_share.glsl';
 import lookupShader from '../../../../shaders/shadow_lookup.glsl';
 import sharesShader from '../../../../shaders/shadow_shares.glsl';
-import { createScreen, FullScreen } from './full_screen.js';
+import { COPY, createScreen, FullScreen } from './full_screen.js';
 import { three } from './kit.js';
+import type { KnownShares } from './known_shares.js';
 import { textForPasses } from './lights_chunks.js';
 import type { ShadowMap } from './shadow_map.js';
 import type { Surfaces } from './surfaces.js';
@@ -18,8 +19,6 @@ const BYTES_OF_A_SUM = 8;
 const READY = 3;
 /** Controls find a camera that rests anew for every picture, each time with other roundings. */
 const ROUNDING = 1e-9;
-const COPY = `precision highp float;uniform highp sampler2D table;out vec4 result;
-void main(){result=texelFetch(table,ivec2(gl_FragCoord.xy),0);}`;
 
 /**
  * For every pixel of a view, or every few of them, which share of each lamp reaches it: the ratio of two sums over points of the lamp,
@@ -59,14 +58,13 @@ export class ScreenShares {
     this.ready = new three.WebGLRenderTarget(1, 1, { ...flat, type: three.HalfFloatType });
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
-    this.#shares = new FullScreen(this.#screen, sharesShader, {
-      surfaces: { value: null },
+    const names = ['surfaces', 'projection', 'ready', 'firstReady', 'readyForSums', 'start', 'firstShare', 'known', 'toKnown', 'knownProjection'];
+    this.#shares = new FullScreen(this.#screen, [textForPasses(), seenSurface, sharesShader].join('\n'), {
+      ...Object.fromEntries(names.map((name) => [name, { value: null }])),
       sums: { value: textures },
-      ready: { value: null },
-      firstReady: { value: 0 },
-      start: { value: null },
+      knownWeights: { value: [] },
     });
-    this.#table = new FullScreen(this.#screen, COPY, { table: { value: null } });
+    this.#table = new FullScreen(this.#screen, COPY, { copied: { value: null } });
     this.#kept = new FullScreen(this.#screen, `${textForPasses()}\n${keptShader}`, { picture: { value: null }, share: { value: 0 } });
   }
 
@@ -83,11 +81,24 @@ export class ScreenShares {
     return this.#surfaces.height;
   }
 
-  /** Takes the view of a camera into the renderer's present viewport; says whether it is another than before. */
-  see(renderer: WebGLRenderer, camera: Camera): boolean {
+  /** From the world into the camera's space, and from there into the picture. */
+  get view(): Matrix4 {
+    return this.#view;
+  }
+
+  get projection(): Matrix4 {
+    return this.#projection;
+  }
+
+  /**
+   * Takes the view of a camera into the renderer's present viewport; says whether it is another than before. `leave`: called before that one's
+   * picture is lost.
+   */
+  see(renderer: WebGLRenderer, camera: Camera, leave: () => void): boolean {
     const viewport = renderer.getCurrentViewport(new three.Vector4());
     const sameCamera = isSame(camera.matrixWorld, this.#place) && isSame(camera.projectionMatrix, this.#projection);
     if (sameCamera && viewport.equals(this.#viewport)) return false;
+    leave();
     this.#viewport.copy(viewport);
     this.#place.copy(camera.matrixWorld);
     this.#view.copy(camera.matrixWorldInverse);
@@ -157,22 +168,28 @@ export class ScreenShares {
     return { surfaces: this.#surfaces.texture, projection: this.#projection };
   }
 
-  /** Shows the shares as they are now. */
-  show(renderer: WebGLRenderer): void {
+  /**
+   * Shows the shares as they are now, and, where the view before saw a place, mixed with what that one knew: of each share by a weight from 0 to 1.
+   * `readyForSums`: the last three sums are not yet to be shown, but what is the same without sums.
+   */
+  show(renderer: WebGLRenderer, known: KnownShares, weights: number[], readyForSums: boolean): void {
     const { width, height } = this;
     for (let layer = 0; layer < this.#layers; layer++) {
       const sums = Array.from({ length: SUMS }, (_, i): Texture => (this.#sums[layer * SUMS + i] ?? this.#spare).texture);
       this.#part(layer * width, 1, width, height);
       const firstReady = this.hasReady ? this.#sums.length - layer * SUMS : SUMS;
       const start = new three.Vector2(layer * width, 1);
-      this.#shares.draw(renderer, this.picture, { surfaces: this.#surfaces.texture, sums, ready: this.ready.texture, firstReady, start });
+      const firstShare = layer * SUMS;
+      const knownWeights = Array.from({ length: SUMS }, (_, i) => weights[firstShare + i] ?? 0);
+      const ready = { ready: this.ready.texture, firstReady, readyForSums };
+      this.#shares.draw(renderer, this.picture, { ...this.seen, ...known.from(this.#view), ...ready, sums, start, firstShare, knownWeights });
     }
   }
 
   /** Shows the lamps as they are now. */
   showTable(renderer: WebGLRenderer, table: Texture): void {
     this.#part(0, 0, this.tableWidth, 1);
-    this.#table.draw(renderer, this.picture, { table });
+    this.#table.draw(renderer, this.picture, { copied: table });
   }
 
   dispose(): void {
