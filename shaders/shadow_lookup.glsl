@@ -41,11 +41,12 @@ struct Receiver {
 
 	}
 
-	// The depth of the receiver's plane in the middle of a texel: not its own, so that no slope shades itself. And that of what is close to it.
+	// The depth of the receiver's plane where it is least in a texel, not its own, so that no slope shades itself: Mesa's software renderer may draw the
+	// depth of four texels' common corner. And that of what is close to it.
 	vec2 depthsOf( Receiver receiver, vec2 middle ) {
 
 		vec3 n = receiver.normal;
-		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 );
+		float rise = - ( dot( n.xy, middle - receiver.at.xy ) - ( abs( n.x ) + abs( n.y ) ) / size ) / min( n.z, - 0.02 );
 		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - vec2( OWN_OF_SUN, CLOSE_OF_SUN );
 
 	}
@@ -69,7 +70,9 @@ struct Receiver {
 	vec2 depthsOf( Receiver receiver, vec2 middle ) {
 
 		float own = abs( receiver.at.z );
-		float plane = dot( receiver.normal, receiver.at ) / dot( receiver.normal, vec3( middle, receiver.side ) );
+		vec3 n = receiver.normal;
+		float facing = dot( n, vec3( middle, receiver.side ) );
+		float plane = dot( n, receiver.at ) / ( facing + sign( facing ) * ( abs( n.x ) + abs( n.y ) ) / size );
 		plane = plane > 0.0 ? clamp( plane, 0.9 * own, 1.1 * own ) : own;
 		return range.y / ( range.y - range.x ) * ( 1.0 - range.x / ( plane * ( 1.0 - vec2( OWN, CLOSE ) ) ) );
 

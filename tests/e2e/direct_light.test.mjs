@@ -130,6 +130,21 @@ test('a lamp at rest gives memory back, and keeps its shadow when another one ne
   assert.deepEqual(errors, []);
 });
 
+test('a flat surface hides nothing of any lamp from itself, however it is turned', async (t) => {
+  const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
+  await page.waitForFunction(() => globalThis.onFlat);
+  const slanting = { ...SUN, normal: [-0.35, -0.78, -0.51] };
+  const point = { kind: 'point', center: [0.3, 1.9, 0.2], intensity: [1, 1, 1] };
+  for (const lamp of [slanting, { ...RECTANGLE, center: [0, 2, 0] }, point])
+    for (const normal of [[0, 1, 0], [0, 0.6, 0.8], [0, 0.3, 1], [0.9, 0.3, 0.2], [0, 0.1, 1]].map(unit)) {
+      const shares = await page.evaluate(([of, to]) => onFlat(of, to), [lamp, normal]);
+      // The aim; of 256 points none may be hidden.
+      const least = Math.min(...shares);
+      assert.ok(least > 0.995 && Math.max(...shares) < 1.005, `${lamp.kind}, ${normal}: ${least} to ${Math.max(...shares)}`);
+    }
+  assert.deepEqual(errors, []);
+});
+
 test('surfaces are lit on the side that is seen, be it their back', async (t) => {
   const { page, errors } = await openScript(t, browser, 'tests/e2e/pages/direct_light.ts');
   await page.waitForFunction(() => globalThis.fromBehind);

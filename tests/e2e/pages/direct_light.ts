@@ -210,6 +210,20 @@ export function fromBehind(definition: LampDefinition): number[] {
   });
 }
 
+/** What of a lamp reaches each pixel of a row across a surface that faces somewhere and has nothing in its way, with all samples. */
+export async function onFlat(definition: LampDefinition, normal: Triple): Promise<number[]> {
+  const lit = light([definition], [surface(4, 4, [0, 0, 0], normal)]);
+  const camera = new OrthographicCamera(-1, 1, 0.01, -0.01, 0, 2);
+  camera.position.set(...normal).normalize();
+  camera.lookAt(0, 0, 0);
+  lit.direct.setShadows('off');
+  const whole = rowOf(lit.scene, camera, 64);
+  await settle(lit, camera, 64, Infinity);
+  const shares = rowOf(lit.scene, camera, 64).map((value, i) => value / whole[i]!);
+  lit.direct.dispose();
+  return shares;
+}
+
 /** A row of the floor below a lamp and the half-plane, all of it so many times as large. */
 export function scaled(definition: LampDefinition, factor: number): number[] {
   const objects = [surface(10, 10, [0, 0, 0], [0, 1, 0]), surface(10, 10, [-5, 1, 0], [0, 1, 0])];
@@ -239,4 +253,4 @@ export function ownObject(definition: LampDefinition): number[] {
   return values;
 }
 
-Object.assign(globalThis, { besideAnother, skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, mirrored, penumbra, fromBehind });
+Object.assign(globalThis, { besideAnother, onFlat, skyOnOwnObject, skyBesideWall, scaled, ownObject, irradiance, mirrored, penumbra, fromBehind });
