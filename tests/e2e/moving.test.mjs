@@ -47,6 +47,16 @@ for (const [what, name] of [['lamp', 'a lamp that has moved'], ['object', 'an ob
     assert.deepEqual(errors, []);
   });
 
+test('a camera that moves keeps the sky as a lamp: nothing is seen to change', async (t) => {
+  const { page, errors } = await open(t);
+  const [rested, ...later] = await page.evaluate(() => underSky());
+  // Those of few directions count little beside what is known: what was shown is 512.
+  const steps = later.map((row) => Math.max(...row.map((value, i) => stepsBetween(value / 4, rested[i] / 4))));
+  t.diagnostic(`${later.length} pictures, off by ${steps.map((of) => of.toFixed(2))} steps`);
+  assert.ok(later.length > 4 && Math.max(...steps) < 3, `off by ${steps}`);
+  assert.deepEqual(errors, []);
+});
+
 test('of two cameras that take turns each shows the shadows that were seen', async (t) => {
   const { page, errors } = await open(t);
   const [rested, last] = await page.evaluate((lamp) => takesTurns(lamp, 10), LAMP_BEHIND_EDGE);

@@ -173,12 +173,15 @@ export async function besideAnother(definition: LampDefinition): Promise<{ rows:
   return result;
 }
 
+export const wallUnderSky = (open: boolean): Lit =>
+  light([], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])], gridsOf(open));
+
 /**
  * A sky of radiance 1 over a white floor with a wall along z, 1 high: the irradiance of each pixel of a row from the wall on, `far` long. `open`:
  * whether the grid has the sky as if there were no wall.
  */
 export async function skyBesideWall(far: number, samples: number, open = false): Promise<number[]> {
-  const lit = light([], [surface(6, 6, [0, 0, 0], [0, 1, 0]), surface(6, 1, [0, 0.5, 0], [1, 0, 0])], gridsOf(open));
+  const lit = wallUnderSky(open);
   const camera = rowCamera(far / 2);
   camera.position.x = far / 2;
   const width = 64;

@@ -3,7 +3,7 @@
 // What a view that comes after another one shows of shadows before it has samples of its own.
 import { type Camera, PerspectiveCamera, Vector3 } from 'three';
 import type { LampDefinition } from '../../../web/src/three/extensions.js';
-import { light, type Lit, rowCamera, rowOf, settle, surface } from './direct_light.js';
+import { light, type Lit, rowCamera, rowOf, settle, surface, wallUnderSky } from './direct_light.js';
 
 const WIDTH = 128;
 
@@ -70,6 +70,25 @@ export async function changes(definition: LampDefinition, what: 'lamp' | 'object
   return rows;
 }
 
+/** The floor beside a wall under a sky, from 0.1 to 0.9: where the camera has rested, in the first picture from elsewhere, in its later ones and at rest. */
+export async function underSky(): Promise<number[][]> {
+  const lit = wallUnderSky(false);
+  const camera = rowCamera(0.4);
+  camera.position.x = 0.5;
+  await settle(lit, camera, WIDTH, Infinity);
+  const rows = [shot(lit, camera)];
+  const next = eyeAt(0.5, 0.4, 0.8);
+  rows.push(shot(lit, next));
+  for (let seen = lit.changes; lit.direct.samples < Infinity; await new Promise(requestAnimationFrame)) {
+    if (lit.changes === seen) continue;
+    seen = lit.changes;
+    rows.push(shot(lit, next));
+  }
+  rows.push(shot(lit, next));
+  lit.direct.dispose();
+  return rows;
+}
+
 /** Two cameras that take turns, of which one has rested before: its row then, and its last of so many turns. */
 export async function takesTurns(definition: LampDefinition, turns: number): Promise<number[][]> {
   const lit = create(definition);
@@ -85,4 +104,4 @@ export async function takesTurns(definition: LampDefinition, turns: number): Pro
   return rows;
 }
 
-Object.assign(globalThis, { movesOn, changes, takesTurns });
+Object.assign(globalThis, { movesOn, changes, underSky, takesTurns });
