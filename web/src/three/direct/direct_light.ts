@@ -115,7 +115,7 @@ export class DirectLight {
     this.#known = new KnownShares();
     this.#shadows = this.lamps.map((lamp) => {
       const middle = middleMap(lamp.definition, definitions.length);
-      return { lamp, middle, form: null, count: -1, shown: 0, off: Infinity, strength: 0 };
+      return { lamp, middle, middleStale: true, form: null, count: -1, shown: 0, off: Infinity, strength: 0 };
     });
     this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
     this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table.texture;
@@ -285,12 +285,16 @@ export class DirectLight {
       const changed = shadow.form?.some((x, i) => x !== now[i]);
       if (changed === true) this.#known.forget(this.#shareOf(shadow));
       if (changed !== false) {
-        this.#drawMap(shadow.middle, form, middleOf(form));
-        this.#mapsTime = performance.now();
+        shadow.middleStale = true;
         this.#begin(shadow, now, -1);
       }
       if (!this.#isSettled(shadow)) this.#scratch.of(shadow.lamp.definition, renderer);
       if (shadow.count >= 0) continue;
+      if (shadow.middleStale) {
+        this.#drawMap(shadow.middle, form, middleOf(form));
+        this.#mapsTime = performance.now();
+        shadow.middleStale = false;
+      }
       this.#drawSurfaces();
       this.#shares.add(renderer, this.#shareOf(shadow), shadow.middle, true, true);
       this.#begin(shadow, now, 0);
@@ -360,7 +364,7 @@ export class DirectLight {
     return true;
   }
 
-  /** With all samples nothing but the picture and the kept maps is needed any more: the memory of all else is given back. */
+  /** With all samples nothing but the picture is needed any more: the memory of all else is given back. */
   #rest(): void {
     // Without samples the next view is soon another.
     if (this.#resting || this.#kind !== 'soft') return;
@@ -368,7 +372,11 @@ export class DirectLight {
     this.#shares.rest();
     this.#scratch.dispose();
     this.#known.forgetAll();
-    for (const shadow of this.#shadows) if (!this.#isSettled(shadow)) begin(shadow, -1);
+    for (const shadow of this.#shadows) {
+      shadow.middle.dispose();
+      shadow.middleStale = true;
+      if (!this.#isSettled(shadow)) begin(shadow, -1);
+    }
   }
 
   /** Something has changed, and not all: lamps that have their samples keep their shares. */

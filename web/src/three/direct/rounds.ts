@@ -10,8 +10,9 @@ const MUCH_BRIGHTER = 2;
 /** A lamp's shadow in the present view. */
 export interface Shadow {
   readonly lamp: Lamp;
-  /** From the lamp's middle; kept while nothing moves but the camera. */
+  /** From the lamp's middle; kept while nothing moves but the camera, until that rests. */
   readonly middle: ShadowMap;
+  middleStale: boolean;
   form: number[] | null;
   /** Points whose samples are in the sums: 0 when only the middle is, -1 when nothing is. */
   count: number;
