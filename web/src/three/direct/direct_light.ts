@@ -21,7 +21,7 @@ import { createLamp, formOf, type Lamp, type PlacedLamp, placed } from './lamp.j
 import { type LampPoint, middleOf, pointOf } from './lamp_points.js';
 import { LampTable } from './lamp_table.js';
 import { DECAY_OF_LAMPS, installLampChunks } from './lights_chunks.js';
-import { begin, FIRST_SHOWN, isSettled, Rounds, type Shadow, strengthOf } from './rounds.js';
+import { begin, enoughPointsOf, FIRST_SHOWN, isSettled, Rounds, type Shadow, strengthOf } from './rounds.js';
 import { middleMap, SampleMaps } from './sample_maps.js';
 import { ScreenShares } from './screen_shares.js';
 import type { ShadowMap } from './shadow_map.js';
@@ -29,18 +29,12 @@ import { ShadowSteps } from './shadow_steps.js';
 import { SkyInGrids } from './sky_in_grids.js';
 import { SkyLamp, type SkyOfPack } from './sky_lamp.js';
 import { signatureOf, Surfaces } from './surfaces.js';
+import { Turns } from './turns.js';
 
 export type Shadows = 'soft' | 'hard' | 'off';
 
-/** How many points of a lamp are enough: of one with an area, and of one without, whose map alone is smoothed. */
-const POINTS = 256;
-const POINTS_OF_POINT = 32;
-/** Of the sky: under a uniform one half of its directions come from below a floor. */
-const POINTS_OF_SKY = 512;
 /** From so many points on the sky is shown as a lamp; until then the grid shows it. */
 const POINTS_TO_SHOW_SKY = 64;
-/** A visitor who saves data saves power, too. */
-const SAVING = 4;
 /** Of the GPU's time in a frame, milliseconds. */
 const BUDGET = 4;
 /** While geometry streams in, shadows are drawn anew at most so often, in milliseconds. */
@@ -90,8 +84,7 @@ export class DirectLight {
   #mapsTime = -Infinity;
   #growing: ReturnType<typeof setTimeout> | undefined;
   #showStale = true;
-  /** The two views before, to tell cameras that take turns. */
-  #views: string[] = [];
+  readonly #turns = new Turns();
   #drawing = false;
   #resting = false;
   #paused = false;
@@ -113,9 +106,9 @@ export class DirectLight {
     this.#skyInGrids = new SkyInGrids();
     this.#steps = new ShadowSteps();
     this.#known = new KnownShares();
-    this.#shadows = this.lamps.map((lamp) => {
+    this.#shadows = this.lamps.map((lamp, i) => {
       const middle = middleMap(lamp.definition, definitions.length);
-      return { lamp, middle, middleStale: true, form: null, count: -1, shown: 0, off: Infinity, strength: 0 };
+      return { lamp, shares: isSky(lamp) ? [i, i + 1, i + 2] : [i], middle, middleStale: true, form: null, count: -1, shown: 0, off: Infinity, strength: 0 };
     });
     this.carrier = new three.SpotLight(undefined, 0, 0, 1, 0, DECAY_OF_LAMPS);
     this.carrier.map = this.#floats ? this.#shares.picture.texture : this.#table.texture;
@@ -206,12 +199,8 @@ export class DirectLight {
     return this.#shadows.filter(({ lamp }) => shines(lamp) && (!isSky(lamp) || (soft && this.#sky.replacesSomething)));
   }
 
-  #enough({ lamp: { definition } }: Shadow): number {
-    if (this.#kind !== 'soft') return 0;
-    const saving = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
-    const area = definition.radiance !== undefined;
-    const points = definition.kind === 'sky' ? POINTS_OF_SKY : area ? POINTS : POINTS_OF_POINT;
-    return points / (saving ? SAVING : 1);
+  #enough({ lamp }: Shadow): number {
+    return this.#kind === 'soft' ? enoughPointsOf(lamp) : 0;
   }
 
   /** Those that shine, and may be seen to be off. */
@@ -275,7 +264,7 @@ export class DirectLight {
         const isNew = this.#sky.renew();
         if (isNew) {
           this.#skyInGrids.forget();
-          this.#known.forget(this.#shareOf(shadow));
+          this.#known.forget(shadow.shares[0]);
         }
         if (shadow.form === null || isNew) this.#mapsTime = performance.now();
         if (shadow.form === null || isNew || shadow.count < 0) this.#begin(shadow, now, 0);
@@ -283,7 +272,7 @@ export class DirectLight {
         continue;
       }
       const changed = shadow.form?.some((x, i) => x !== now[i]);
-      if (changed === true) this.#known.forget(this.#shareOf(shadow));
+      if (changed === true) this.#known.forget(shadow.shares[0]);
       if (changed !== false) {
         shadow.middleStale = true;
         this.#begin(shadow, now, -1);
@@ -296,7 +285,7 @@ export class DirectLight {
         shadow.middleStale = false;
       }
       this.#drawSurfaces();
-      this.#shares.add(renderer, this.#shareOf(shadow), shadow.middle, true, true);
+      this.#shares.add(renderer, shadow.shares[0], shadow.middle, true, true);
       this.#begin(shadow, now, 0);
       this.#showStale = true;
     }
@@ -304,7 +293,7 @@ export class DirectLight {
     if (this.#showStale) this.#show();
     this.#showStale = false;
     if (this.samples === Infinity) this.#rest();
-    if (this.#takesTurns(camera, moved)) this.#task.cancel();
+    if (this.#turns.take(camera, moved)) this.#task.cancel();
     else if (!this.#paused && this.samples < Infinity) this.#task.request();
   }
 
@@ -312,7 +301,7 @@ export class DirectLight {
   #leave(shining: Shadow[]): void {
     if (!this.#floats || this.#kind !== 'soft' || !shining.every(({ shown, form }) => shown > 0 && form !== null)) return;
     const points: number[] = [];
-    for (const shadow of shining) for (const share of this.#sharesOf(shadow)) points[share] = shadow.shown;
+    for (const shadow of shining) for (const share of shadow.shares) points[share] = shadow.shown;
     this.#known.keep(this.#surroundings.renderer, this.#shares, points);
   }
 
@@ -324,26 +313,16 @@ export class DirectLight {
       const own = Math.max(0, isSky(shadow.lamp) && isYoung(shadow) ? 0 : shadow.count);
       if (isSky(shadow.lamp)) readyForSums = own === 0;
       const left = this.#isSettled(shadow) ? 0 : 1 - own / this.#enough(shadow);
-      const known = left * this.#known.pointsOf(this.#shareOf(shadow));
-      for (const share of this.#sharesOf(shadow)) weights[share] = known > 0 ? known / (own + known) : 0;
+      const known = left * this.#known.pointsOf(shadow.shares[0]);
+      for (const share of shadow.shares) weights[share] = known > 0 ? known / (own + known) : 0;
       shadow.shown = own < FIRST_SHOWN ? 0 : own + known;
     }
     this.#shares.show(this.#surroundings.renderer, this.#known, weights, readyForSums);
   }
 
-  #shareOf(shadow: Shadow): number {
-    return this.#shadows.indexOf(shadow);
-  }
-
-  /** The sky's are those of its colours. */
-  #sharesOf(shadow: Shadow): number[] {
-    const share = this.#shareOf(shadow);
-    return isSky(shadow.lamp) ? [share, share + 1, share + 2] : [share];
-  }
-
   /** Whether the sky is shown as a lamp. */
   #showsSky(shadow: Shadow): boolean {
-    return !isYoung(shadow) || this.#known.pointsOf(this.#shareOf(shadow)) > 0;
+    return !isYoung(shadow) || this.#known.pointsOf(shadow.shares[0]) > 0;
   }
 
   #begin(shadow: Shadow, form: number[], count: number): void {
@@ -385,7 +364,7 @@ export class DirectLight {
     this.#rounds.forget();
     // Of the sums the ratios are left: whose samples go on begins anew, and is shown as it was until then.
     for (const shadow of this.#open()) begin(shadow, Math.min(shadow.count, 0));
-    const kept = this.#shadows.filter(({ count }) => count >= 0).flatMap((shadow) => this.#sharesOf(shadow));
+    const kept = this.#shadows.filter(({ count }) => count >= 0).flatMap(({ shares }) => shares);
     this.#shares.recall(this.#surroundings.renderer, kept);
   }
 
@@ -394,15 +373,6 @@ export class DirectLight {
     if (this.#resting) this.#wake();
     if (this.#surfacesStale) this.#shares.drawSurfaces(this.#surfaces, this.#root!, this.#camera!);
     this.#surfacesStale = false;
-  }
-
-  /** Whether two cameras draw one after the other, for ever: a picture that a refinement asked for would undo it. */
-  #takesTurns(camera: Camera, moved: boolean): boolean {
-    const view = camera.uuid;
-    const turns = moved && this.#views[0] !== undefined && this.#views[1] === view && this.#views[0] !== view;
-    if (moved) this.#views = [view, this.#views[0] ?? view];
-    else this.#views = [view];
-    return turns;
   }
 
   #drawMap(map: ShadowMap, form: PlacedLamp, point: LampPoint): void {
@@ -415,7 +385,7 @@ export class DirectLight {
   }
 
   #writeTable(camera: Camera, shown: Shadow[], shadowed: boolean): void {
-    const lamps = shown.map((shadow): [Lamp, number] => [shadow.lamp, this.#shareOf(shadow)]);
+    const lamps = shown.map((shadow): [Lamp, number] => [shadow.lamp, shadow.shares[0]]);
     this.#table.write(camera, lamps, shadowed, this.#shares, this.#sky.texels(camera.matrixWorldInverse));
   }
 
@@ -460,14 +430,14 @@ export class DirectLight {
   async #measure(shadow: Shadow, exposure: number): Promise<number> {
     // Before the sky is shown its light is that of the grids.
     if (isSky(shadow.lamp) && shadow.count < 2 * POINTS_TO_SHOW_SKY) return Infinity;
-    return this.#steps.measure(this.#surroundings.renderer, this.#shares, this.#shareOf(shadow), this.#sharesOf(shadow).length, exposure);
+    return this.#steps.measure(this.#surroundings.renderer, this.#shares, shadow.shares[0], shadow.shares.length, exposure);
   }
 
   #note(round: Shadow[], offs: number[], exposure: number): void {
     this.#measuring = null;
     round.forEach((shadow, i) => Object.assign(shadow, { off: offs[i], strength: strengthOf(shadow, exposure) }));
     // What is good enough without is shown without what was known.
-    this.#showStale ||= round.some((shadow) => this.#isSettled(shadow) && this.#known.pointsOf(this.#shareOf(shadow)) > 0);
+    this.#showStale ||= round.some((shadow) => this.#isSettled(shadow) && this.#known.pointsOf(shadow.shares[0]) > 0);
     if (this.samples < Infinity) this.#task.request();
     else this.#surroundings.changed();
   }
@@ -478,9 +448,8 @@ export class DirectLight {
     const form = placed(shadow.lamp);
     this.#drawSurfaces();
     this.#drawMap(map, form, isSky(shadow.lamp) ? this.#sky.pointOf(shadow.count) : pointOf(form, shadow.count));
-    const share = this.#shareOf(shadow);
     const { color = [1] } = map.point;
-    color.forEach((strength, channel) => this.#shares.add(renderer, share + channel, map, shadow.count === 0, false, strength));
+    color.forEach((strength, channel) => this.#shares.add(renderer, shadow.shares[channel]!, map, shadow.count === 0, false, strength));
     shadow.count++;
   }
 }

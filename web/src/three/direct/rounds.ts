@@ -2,6 +2,13 @@
 import type { Lamp } from './lamp.js';
 import type { ShadowMap } from './shadow_map.js';
 
+/** How many points of a lamp are enough: of one with an area, and of one without, whose map alone is smoothed. */
+const POINTS = 256;
+const POINTS_OF_POINT = 32;
+/** Of the sky: under a uniform one half of its directions come from below a floor. */
+const POINTS_OF_SKY = 512;
+/** A visitor who saves data saves power, too. */
+const SAVING = 4;
 /** From so many points of a lamp its shadow is shown. */
 export const FIRST_SHOWN = 16;
 /** Of a lamp that has become this much brighter, as it is shown, the shadow may be seen to be off where it was not. */
@@ -10,6 +17,8 @@ const MUCH_BRIGHTER = 2;
 /** A lamp's shadow in the present view. */
 export interface Shadow {
   readonly lamp: Lamp;
+  /** Which of all shares are its own: of the sky one for each colour. */
+  readonly shares: readonly [number, ...number[]];
   /** From the lamp's middle; kept while nothing moves but the camera, until that rests. */
   readonly middle: ShadowMap;
   middleStale: boolean;
@@ -26,6 +35,13 @@ export interface Shadow {
 /** Begins anew with what is known of a shadow. */
 export function begin(shadow: Shadow, count: number): void {
   Object.assign(shadow, { count, shown: 0, off: Infinity });
+}
+
+/** How many points of a lamp are as many as there will be. */
+export function enoughPointsOf({ definition: { kind, radiance } }: Lamp): number {
+  const saving = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
+  const points = kind === 'sky' ? POINTS_OF_SKY : radiance !== undefined ? POINTS : POINTS_OF_POINT;
+  return points / (saving ? SAVING : 1);
 }
 
 /** How bright the lamp's light is shown. */
