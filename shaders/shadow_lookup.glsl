@@ -12,6 +12,7 @@ uniform vec3 point;             // of the lamp, in the camera's space; of a sun 
 uniform vec3 normal;            // of the lamp's surface there; 0 where it shines evenly to all sides
 uniform bool bothSides;
 uniform float size;             // a face's side, in texels
+uniform vec2 within;            // of the pixel: the place that is looked up, from its middle
 uniform vec2 range;             // near and far end of the map; of a sun its half width and half depth
 
 out vec4 result;
@@ -126,6 +127,17 @@ float lookUp( Receiver receiver ) {
 
 }
 
+// The place of the surface that is looked up. Of one that is seen almost along it, or so near that the pixel reaches behind the eye, the middle.
+vec3 placeOf( vec4 surface, vec3 n ) {
+
+	vec3 middle = positionOf( gl_FragCoord.xy, surface.b );
+	vec2 at = gl_FragCoord.xy + within;
+	vec3 eye = positionOf( at, 0.0 ), ray = positionOf( at, 1.0 ) - eye;
+	float facing = dot( n, ray ), distance = dot( n, middle - eye ) / facing;
+	return facing < - 0.1 * length( ray ) && abs( distance - surface.b ) < 0.1 * surface.b ? eye + distance * ray : middle;
+
+}
+
 void main() {
 
 	vec4 surface = texelFetch( surfaces, ivec2( gl_FragCoord.xy ), 0 );
@@ -133,7 +145,7 @@ void main() {
 	if ( surface.b == 0.0 ) { result = vec4( before, 0.0, 0.0 ); return; }
 
 	vec3 n = unpackNormal( surface.rg );
-	vec3 way = positionOf( gl_FragCoord.xy, surface.b ) - point;
+	vec3 way = placeOf( surface, n ) - point;
 	#ifdef SUN
 		vec3 direction = - vec3( axes[ 0 ][ 2 ], axes[ 1 ][ 2 ], axes[ 2 ][ 2 ] );
 		float weight = strength;

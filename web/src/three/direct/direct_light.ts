@@ -285,7 +285,7 @@ export class DirectLight {
         shadow.middleStale = false;
       }
       this.#drawSurfaces();
-      this.#shares.add(renderer, shadow.shares[0], shadow.middle, true, true);
+      this.#shares.add(renderer, shadow.shares[0], shadow.middle, 0, true);
       this.#begin(shadow, now, 0);
       this.#showStale = true;
     }
@@ -449,7 +449,7 @@ export class DirectLight {
     this.#drawSurfaces();
     this.#drawMap(map, form, isSky(shadow.lamp) ? this.#sky.pointOf(shadow.count) : pointOf(form, shadow.count));
     const { color = [1] } = map.point;
-    color.forEach((strength, channel) => this.#shares.add(renderer, shadow.shares[channel]!, map, shadow.count === 0, false, strength));
+    color.forEach((strength, channel) => this.#shares.add(renderer, shadow.shares[channel]!, map, shadow.count, false, strength));
     shadow.count++;
   }
 }

@@ -17,6 +17,8 @@ const MOST_BYTES = 96 * 2 ** 20;
 const BYTES_OF_A_SUM = 8;
 /** And of what is ready without sums. */
 const READY = 3;
+/** From sample to sample another place of the pixel is looked up, all over it (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018). */
+const WITHIN_PIXEL = [0.7548776662466927, 0.5698402909980532];
 /** Controls find a camera that rests anew for every picture, each time with other roundings. */
 const ROUNDING = 1e-9;
 
@@ -133,10 +135,10 @@ export class ScreenShares {
   }
 
   /**
-   * Looks a map up for every pixel: adds a sample of some strength to the sums of a share, or begins them with it. `soft`: filtered, as a
-   * lamp's only sample.
+   * Looks a map up for every pixel: adds the sample of a number from 0 on, of some strength, to the sums of a share, which begin with the first. `soft`: filtered,
+   * as a lamp's only sample.
    */
-  add(renderer: WebGLRenderer, share: number, map: ShadowMap, first: boolean, soft: boolean, strength = 1): void {
+  add(renderer: WebGLRenderer, share: number, map: ShadowMap, index: number, soft: boolean, strength = 1): void {
     const { point, range, sun } = map;
     const axes = new three.Matrix3();
     const [x, y, z] = point.axes.map((axis) => axis.clone().transformDirection(this.#view));
@@ -145,7 +147,8 @@ export class ScreenShares {
       surfaces: this.#surfaces.texture,
       sums: this.#sums[share]!.texture,
       depths: map.depths,
-      first,
+      first: index === 0,
+      within: soft ? new three.Vector2() : new three.Vector2(...WITHIN_PIXEL.map((step) => ((0.5 + index * step) % 1) - 0.5)),
       strength,
       projection: this.#projection,
       axes,
@@ -210,7 +213,7 @@ export class ScreenShares {
 
   #lookup(sun: boolean, soft: boolean): FullScreen {
     const key = `${sun}${soft}`;
-    const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'range'];
+    const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'within', 'range'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
     const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
     const pass = this.#lookups.get(key) ?? new FullScreen(this.#screen, seenSurface + lookupShader, uniforms, defines);
