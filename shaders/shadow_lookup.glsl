@@ -33,6 +33,14 @@ struct Receiver {
 	vec2 place;     // in the face, in texels
 };
 
+// By how much a plane is deeper at a texel's corner than in its middle, in halves of its width. Where it is steeper than what is said here it has little
+// light, and what stands on it is more to be minded.
+float getSlope( vec3 n, float facing ) {
+
+	return min( ( abs( n.x ) + abs( n.y ) ) / abs( facing ), 1.5 );
+
+}
+
 #ifdef SUN
 
 	Receiver receiverOf( vec3 way, vec3 n ) {
@@ -47,7 +55,7 @@ struct Receiver {
 	vec2 depthsOf( Receiver receiver, vec2 middle ) {
 
 		vec3 n = receiver.normal;
-		float rise = - ( dot( n.xy, middle - receiver.at.xy ) - ( abs( n.x ) + abs( n.y ) ) / size ) / min( n.z, - 0.02 );
+		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 ) - getSlope( n, n.z ) / size;
 		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - vec2( OWN_OF_SUN, CLOSE_OF_SUN );
 
 	}
@@ -73,7 +81,7 @@ struct Receiver {
 		float own = abs( receiver.at.z );
 		vec3 n = receiver.normal;
 		float facing = dot( n, vec3( middle, receiver.side ) );
-		float plane = dot( n, receiver.at ) / ( facing + sign( facing ) * ( abs( n.x ) + abs( n.y ) ) / size );
+		float plane = dot( n, receiver.at ) / ( facing * ( 1.0 + getSlope( n, facing ) / size ) );
 		plane = plane > 0.0 ? clamp( plane, 0.9 * own, 1.1 * own ) : own;
 		return range.y / ( range.y - range.x ) * ( 1.0 - range.x / ( plane * ( 1.0 - vec2( OWN, CLOSE ) ) ) );
 
