@@ -60,6 +60,8 @@ Result<void> OpenedPack::check_streams() const {
   for (const GridDescription& grid : grids_) LW_CHECK(check(grid.bricks, StreamKind::bricks, grids_extension));
   LW_CHECK(check(primitives_, StreamKind::mesh, mesh_extension));
   if (parts_) LW_CHECK(check(std::span(&*parts_, 1), StreamKind::parts, parts_extension));
+  for (const RefinedTexture& texture : textures_)
+    LW_CHECK(check(texture.levels, StreamKind::texture, texture_extension));
   return check(textures_, StreamKind::texture, texture_extension);
 }
 

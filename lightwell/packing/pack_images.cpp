@@ -3,17 +3,24 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <iterator>
 
 #include "lightwell/gltf/extensions.h"
 #include "lightwell/scene/import_gltf_material.h"
 #include "lightwell/texture/image_file.h"
+#include "lightwell/texture/mip.h"
 
 namespace lightwell {
 namespace {
 
 constexpr size_t preview_budget = 8192;      // bytes, of all previews together
 constexpr size_t stream_worth_bytes = 1024;  // a file that exceeds its preview by no more goes into the opening
+
+constexpr size_t levels_worth_bytes = 65536;  // what is larger comes in levels, too
+constexpr int step_of_levels = 4;             // of their sides
+constexpr size_t share_of_level = 4;          // a level takes this part of the next one's bytes at most
+constexpr int least_side_of_level = 128;      // pixels: smaller ones are no better than previews
+constexpr int level_quality = 80;             // of WebP
 
 // Extensions that give a texture's image in a format outside core glTF.
 constexpr std::array other_formats = {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu"};
@@ -59,10 +66,28 @@ std::vector<bool> used_images(const Document& document) {
 struct Shrunk {
   std::vector<uint8_t> opening;
   ImageFormat format = ImageFormat::png;
-  std::optional<StreamedImage> streamed;
+  std::vector<StreamedImage> streamed;
 };
 
-Shrunk shrink(const Scene& scene, const Document& document, int index, bool color, int side) {
+// The levels of an image whose file is streamed, coarse to fine.
+std::vector<StreamedImage> levels_of(const Image& image, const StreamedImage& whole, bool color) {
+  std::vector<StreamedImage> levels;
+  if (whole.file.size() <= levels_worth_bytes) return levels;
+  size_t next = whole.file.size();
+  for (int side = std::max(image.width, image.height) / step_of_levels; side >= least_side_of_level;
+       side /= step_of_levels) {
+    const Image mip = smallest_mip(image, side, color);
+    std::vector<uint8_t> file = write_webp(mip, level_quality);
+    if (file.empty() || file.size() > next / share_of_level) continue;
+    next = file.size();
+    const TextureParameters parameters{static_cast<uint32_t>(next), ImageFormat::webp, static_cast<uint32_t>(mip.width),
+                                       static_cast<uint32_t>(mip.height)};
+    levels.insert(levels.begin(), {whole.image, true, parameters, std::move(file)});
+  }
+  return levels;
+}
+
+Shrunk shrink(const Scene& scene, const Document& document, int index, bool color, int side, bool has_levels) {
   const Image& image = scene.images[static_cast<size_t>(index)];
   Shrunk shrunk{write_preview(image, side, color), ImageFormat::png, {}};
   shrunk.format = image_format(shrunk.opening).value_or(ImageFormat::png);
@@ -74,17 +99,17 @@ Shrunk shrink(const Scene& scene, const Document& document, int index, bool colo
     shrunk.format = *format;
     return shrunk;
   }
-  StreamedImage& streamed = shrunk.streamed.emplace();
-  streamed.image = index;
-  streamed.parameters = {static_cast<uint32_t>(file->size()), *format, static_cast<uint32_t>(image.width),
-                         static_cast<uint32_t>(image.height)};
-  streamed.file = std::move(*file);
+  const TextureParameters parameters{static_cast<uint32_t>(file->size()), *format, static_cast<uint32_t>(image.width),
+                                     static_cast<uint32_t>(image.height)};
+  StreamedImage whole{index, false, parameters, std::move(*file)};
+  if (has_levels) shrunk.streamed = levels_of(image, whole, color);
+  shrunk.streamed.push_back(std::move(whole));
   return shrunk;
 }
 
 }  // namespace
 
-std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document) {
+std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document, int surroundings) {
   std::vector<StreamedImage> streamed;
   if (!document.json.contains("images")) return streamed;
   if (document.json.contains("textures")) use_plain_sources(document);
@@ -93,8 +118,8 @@ std::vector<StreamedImage> shrink_images(const Scene& scene, Document& document)
   const int side = preview_side(static_cast<size_t>(std::count(used.begin(), used.end(), true)));
   for (size_t i = 0; i < scene.images.size(); i++) {
     if (!used[i]) continue;
-    Shrunk shrunk = shrink(scene, document, static_cast<int>(i), color[i], side);
-    if (shrunk.streamed) streamed.push_back(std::move(*shrunk.streamed));
+    Shrunk shrunk = shrink(scene, document, static_cast<int>(i), color[i], side, static_cast<int>(i) != surroundings);
+    std::ranges::move(shrunk.streamed, std::back_inserter(streamed));
     const int view = DocumentBuilder(document).buffer_view(shrunk.opening);
     Json& json = document.json["images"][i];
     json.erase("uri");

@@ -52,13 +52,25 @@ void add_extensions(Document& document, const Scene& scene, const PackLight& lig
       json["meshes"][refined.mesh]["primitives"][refined.primitive]["extensions"][mesh_extension] = to_json(refined);
       use_extension(json, mesh_extension);
     }
-  for (size_t i = 0; i < content.images.size(); i++)
-    for (Json& texture : json["textures"]) {
-      if (index_of(texture, "source") != content.images[i].image) continue;
-      const TextureParameters& parameters = content.images[i].parameters;
-      texture["extensions"][texture_extension] = to_json(RefinedTexture{
-          static_cast<uint32_t>(content.image_stream(i)), parameters.width, parameters.height, parameters.format});
+  std::vector<TextureLevel> levels;
+  for (size_t i = 0; i < content.images.size(); i++) {
+    const auto stream = static_cast<uint32_t>(content.image_stream(i));
+    const TextureParameters& parameters = content.images[i].parameters;
+    if (content.images[i].is_level) {
+      levels.push_back({stream, parameters.width, parameters.height});
+      continue;
     }
+    for (Json& texture : json["textures"])
+      if (index_of(texture, "source") == content.images[i].image)
+        texture["extensions"][texture_extension] = to_json(RefinedTexture{
+            .stream = stream,
+            .width = parameters.width,
+            .height = parameters.height,
+            .format = parameters.format,
+            .levels = levels,
+        });
+    levels.clear();
+  }
   if (!content.images.empty())
     use_extension(json, texture_extension);  // may move the textures: not while they are changed
   json["extensions"][grids_extension] = to_json(describe(light, content));

@@ -235,7 +235,8 @@ Result<std::vector<uint8_t>> make_pack(Scene scene, const PackLight& light, cons
   content.parts = merge_parts(scene, stated.lamps, lost);
   name_scene(scene.document.json, scene.name);
   content.environment = add_environment(scene, scene.document);
-  content.images = shrink_images(scene, scene.document);
+  const int surroundings = content.environment ? static_cast<int>(scene.images.size()) - 1 : -1;
+  content.images = shrink_images(scene, scene.document, surroundings);
   const PositionErrors errors = position_errors(scene, content.parts, options);
   const std::vector<MeshGroup> groups = mesh_groups(scene, errors.most, stated.lamps);
   const OpeningBudget budget = opening_budget(scene, groups, stated, content);

@@ -14,8 +14,19 @@ std::optional<ImageFormat> format_of(std::string_view type) {
   return std::nullopt;
 }
 
+Result<std::vector<TextureLevel>> read_levels(const Json& list, const std::string& name) {
+  std::vector<TextureLevel> levels;
+  for (size_t i = 0; i < list.size(); i++) {
+    MemberReader reader(list[i], name + ".levels[" + std::to_string(i) + "]");
+    LW_TRY(read, reader.finish(TextureLevel{reader.whole("stream"), reader.whole("width"), reader.whole("height")}));
+    levels.push_back(read);
+  }
+  return levels;
+}
+
 Result<RefinedTexture> read_refined_texture(const Json& texture, const std::string& name) {
-  MemberReader reader(extension(texture, texture_extension), name + "." + texture_extension);
+  const std::string own = name + "." + texture_extension;
+  MemberReader reader(extension(texture, texture_extension), own);
   RefinedTexture refined;
   refined.stream = reader.whole("stream");
   refined.width = reader.whole("width");
@@ -23,6 +34,10 @@ Result<RefinedTexture> read_refined_texture(const Json& texture, const std::stri
   const std::optional<ImageFormat> format = format_of(reader.string("mimeType"));
   if (!format) reader.refuse("mimeType", "is no image format of packs");
   refined.format = format.value_or(ImageFormat::png);
+  if (reader.has("levels")) {
+    LW_TRY(levels, read_levels(reader.array("levels"), own));
+    refined.levels = std::move(levels);
+  }
   LW_CHECK(reader.finish(true));
   MemberReader plain(texture, name);
   refined.source = plain.whole("source");
@@ -32,10 +47,13 @@ Result<RefinedTexture> read_refined_texture(const Json& texture, const std::stri
 }  // namespace
 
 Json to_json(const RefinedTexture& refined) {
-  return {{"stream", refined.stream},
-          {"width", refined.width},
-          {"height", refined.height},
-          {"mimeType", mime_type(refined.format)}};
+  Json json = {{"stream", refined.stream},
+               {"width", refined.width},
+               {"height", refined.height},
+               {"mimeType", mime_type(refined.format)}};
+  for (const TextureLevel& level : refined.levels)
+    json["levels"].push_back({{"stream", level.stream}, {"width", level.width}, {"height", level.height}});
+  return json;
 }
 
 Result<std::vector<RefinedTexture>> read_refined_textures(const Json& json) {

@@ -72,13 +72,6 @@ Result<std::vector<Mesh>> unpack_meshes(const PackReader& pack, size_t stream, c
   return meshes_of(*mesh);
 }
 
-Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream) {
-  LW_TRY(image, open_asset_as<TextureAsset>(pack, stream));
-  LW_CHECK(append_blocks(pack, stream, *image, [](uint32_t) { return true; }));
-  if (!image->complete()) return fail("stream " + std::to_string(stream), "the image is not complete");
-  return image->file();
-}
-
 Result<void> refine_meshes(Document& document, const PackRefinement& refinement) {
   LW_TRY(primitives, read_refined_primitives(document.json));
   std::map<uint32_t, std::vector<Mesh>> of_stream;
@@ -163,6 +156,13 @@ Result<std::vector<uint8_t>> image_of_texture(const OpenedPack& pack, uint32_t t
 }
 
 }  // namespace
+
+Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream) {
+  LW_TRY(image, open_asset_as<TextureAsset>(pack, stream));
+  LW_CHECK(append_blocks(pack, stream, *image, [](uint32_t) { return true; }));
+  if (!image->complete()) return fail("stream " + std::to_string(stream), "the image is not complete");
+  return image->file();
+}
 
 Result<std::optional<RadianceImage>> unpack_environment(const OpenedPack& pack, ImageLimit limit) {
   if (!pack.environment()) return std::nullopt;

@@ -44,6 +44,9 @@ Result<void> refine_document(Document& document, const PackRefinement& refinemen
 /// that were merged are so here.
 Result<Document> unpack_document(const OpenedPack& pack, const MeshLevel& level, Report& report);
 
+/// The image file that a texture stream brings, of an image or of a level of one.
+Result<std::vector<uint8_t>> unpack_image(const PackReader& pack, size_t stream);
+
 /// Takes the merged mesh of such a document apart (restore_parts), where the pack has one.
 Result<void> unpack_parts(const OpenedPack& pack, Document& document);
 

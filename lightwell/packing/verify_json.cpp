@@ -120,9 +120,27 @@ Result<void> verify_named_once(const OpenedPack& pack) {
   return {};
 }
 
+// Checks that levels are smaller images, from coarse to fine, each named for one image alone. `image_of_level` has
+// those of the textures before.
+Result<void> verify_levels(const OpenedPack& pack, const RefinedTexture& refined, const std::string& name,
+                           std::map<uint32_t, uint32_t>& image_of_level) {
+  uint32_t width = 0, height = 0;
+  for (const TextureLevel& level : refined.levels) {
+    LW_TRY(parameters, decode_texture_parameters(entry_of(pack, level.stream).parameters));
+    if (level.width != parameters.width || level.height != parameters.height) return differs(texture_extension, name);
+    if (level.width < width || level.height < height || level.width > refined.width || level.height > refined.height)
+      return fail(name, "its levels are not smaller images of it, from coarse to fine");
+    width = level.width;
+    height = level.height;
+    if (image_of_level.emplace(level.stream, refined.source).first->second != refined.source)
+      return fail(name, "stream " + std::to_string(level.stream) + " brings a level of another image");
+  }
+  return {};
+}
+
 Result<void> verify_textures(const OpenedPack& pack) {
   const Json& textures = member(pack.json(), "textures");
-  std::map<uint32_t, uint32_t> image_of_stream;
+  std::map<uint32_t, uint32_t> image_of_stream, image_of_level;
   std::map<int, size_t> refined_of_image;
   for (const RefinedTexture& refined : pack.textures()) {
     const std::string name = element_name("textures", refined.texture);
@@ -136,7 +154,11 @@ Result<void> verify_textures(const OpenedPack& pack) {
         image_of_stream[refined.stream] != refined.source)
       return fail(name, "stream " + std::to_string(refined.stream) + " brings another image");
     refined_of_image[image]++;
+    LW_CHECK(verify_levels(pack, refined, name, image_of_level));
   }
+  for (const auto& [stream, image] : image_of_level)
+    if (image_of_stream.contains(stream))
+      return fail(texture_extension, "stream " + std::to_string(stream) + " is a level and an image");
   if (image_of_stream.size() != refined_of_image.size()) return fail(texture_extension, "two streams bring one image");
   // Either all textures of an image are refined, or none.
   for (size_t i = 0; i < textures.size(); i++)

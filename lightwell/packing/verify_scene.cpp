@@ -6,6 +6,7 @@
 #include "lightwell/asset/mesh_asset.h"
 #include "lightwell/packing/unpack.h"
 #include "lightwell/scene/import_gltf.h"
+#include "lightwell/texture/image_file.h"
 
 namespace lightwell {
 namespace {
@@ -55,6 +56,19 @@ Result<void> verify_bounds(const OpenedPack& pack, const Scene& scene) {
   return {};
 }
 
+// Levels can be read, and are as large as is said.
+Result<void> verify_levels(const OpenedPack& pack, const RefinedTexture& refined) {
+  for (const TextureLevel& level : refined.levels) {
+    const std::string name = "stream " + std::to_string(level.stream);
+    LW_TRY(file, unpack_image(pack.reader(), level.stream));
+    const auto image = read_image_file(file, highest_image_limit);
+    if (!image) return fail(image.error().kind, name, image.error().message());
+    if (image->width != static_cast<int>(level.width) || image->height != static_cast<int>(level.height))
+      return fail(name, "is not of the size that is stated");
+  }
+  return {};
+}
+
 // The picture of the surroundings is no image of the scene: verify_sky reads it.
 Result<void> verify_images(const OpenedPack& pack, const Scene& scene) {
   for (const RefinedTexture& refined : pack.textures()) {
@@ -64,6 +78,7 @@ Result<void> verify_images(const OpenedPack& pack, const Scene& scene) {
     if (image.width != static_cast<int>(refined.width) || image.height != static_cast<int>(refined.height) ||
         image_format(file) != refined.format)
       return fail(element_name("images", refined.source), "is not of the size and format that its stream states");
+    LW_CHECK(verify_levels(pack, refined));
   }
   return {};
 }

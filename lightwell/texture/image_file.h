@@ -34,6 +34,10 @@ std::vector<uint8_t> write_png(const Image& image);
 /// A JPEG file of an image of one or three channels; quality as in libjpeg, 1 to 100.
 std::vector<uint8_t> write_jpeg(const Image& image, int quality);
 
+/// A WebP file, with loss, of an image of one to four channels; quality as in libwebp, 0 to 100. Empty when it is too
+/// large for one: more than 16,383 pixels a side.
+std::vector<uint8_t> write_webp(const Image& image, int quality);
+
 /// The small picture that stands for a texture in a pack's opening: the mip of at most `longest_side` pixels a side, as
 /// PNG or, where that is smaller and nothing is transparent, JPEG. `color`: see smallest_mip.
 std::vector<uint8_t> write_preview(const Image& image, int longest_side, bool color);

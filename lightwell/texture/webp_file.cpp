@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <webp/decode.h>
+#include <webp/encode.h>
+
+#include <algorithm>
 
 #include "lightwell/texture/image_file.h"
 
@@ -28,6 +31,26 @@ Result<Image> read_webp(Bytes file, ImageLimit limit) {
   if (!decode(file.data(), file.size(), image.pixels.data(), image.pixels.size(), static_cast<int>(stride)))
     return fail("WebP", "the file is damaged or ends too early");
   return image;
+}
+
+std::vector<uint8_t> write_webp(const Image& image, int quality) {
+  // WebP has colours, with alpha or without.
+  const auto channels = static_cast<size_t>(image.channels), colors = channels < 3 ? size_t(1) : size_t(3);
+  const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+  const bool has_alpha = channels % 2 == 0;
+  const size_t written = has_alpha ? 4 : 3;
+  std::vector<uint8_t> rgb(pixels * written);
+  for (size_t i = 0; i < pixels; i++) {
+    for (size_t c = 0; c < 3; c++) rgb[i * written + c] = image.pixels[i * channels + std::min(c, colors - 1)];
+    if (has_alpha) rgb[i * written + 3] = image.pixels[i * channels + colors];
+  }
+  uint8_t* bytes = nullptr;
+  const auto encode = has_alpha ? WebPEncodeRGBA : WebPEncodeRGB;
+  const size_t size = encode(rgb.data(), image.width, image.height, image.width * static_cast<int>(written),
+                             static_cast<float>(quality), &bytes);
+  std::vector<uint8_t> file(bytes, bytes + size);
+  WebPFree(bytes);
+  return file;
 }
 
 }  // namespace lightwell

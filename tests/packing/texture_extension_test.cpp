@@ -9,12 +9,16 @@ namespace lightwell {
 namespace {
 
 RefinedTexture any_refined(Random& random, size_t texture) {
-  return {random.below(65536),
-          1 + random.below(9999),
-          1 + random.below(9999),
-          static_cast<ImageFormat>(random.below(3)),
-          texture,
-          random.below(9)};
+  RefinedTexture refined{random.below(65536),
+                         1 + random.below(9999),
+                         1 + random.below(9999),
+                         static_cast<ImageFormat>(random.below(3)),
+                         texture,
+                         random.below(9),
+                         {}};
+  for (uint32_t left = random.below(3); left > 0; left--)
+    refined.levels.push_back({random.below(65536), 1 + random.below(999), 1 + random.below(999)});
+  return refined;
 }
 
 // A document in which some textures are refined, and others are not.

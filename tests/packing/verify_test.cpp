@@ -62,6 +62,38 @@ TEST(VerifyPack, HoldsTheJsonAgainstTheStreams) {
   EXPECT_EQ(errors(indices + "/count", 3), 1u);
 }
 
+TEST(VerifyPack, HoldsLevelsAgainstTheirStreams) {
+  Document document = room();
+  add_noise(document, 512);
+  const Packed packed = pack(std::move(document));
+  const OpenedPack sound = open(packed.file);
+  const auto message = [&](auto change) {
+    Json json = sound.json();
+    Json& refined = json["textures"][0]["extensions"][texture_extension];
+    change(refined);
+    const std::vector<uint8_t> file = rewrite(sound, json, streams_of(sound.reader()));
+    const auto opened = try_open(file);
+    if (!opened) return opened.error().message();
+    const auto errors = verify_pack(*opened).errors;
+    return errors.empty() ? std::string() : errors[0];
+  };
+  EXPECT_EQ(message([](Json&) {}), "");
+  EXPECT_EQ(message([](Json& refined) { refined.erase("levels"); }), "");  // who does not know levels loses nothing
+  const std::string stream = std::to_string(sound.textures()[0].stream);
+  EXPECT_NE(message([](Json& refined) { refined["levels"][0]["width"] = 64; }), "");
+  EXPECT_NE(message([](Json& refined) { refined["levels"][0]["stream"] = 0; }), "");
+  EXPECT_NE(message([](Json& refined) { refined["levels"][0]["stream"] = 9999; }), "");
+  EXPECT_EQ(message([](Json& refined) {
+              refined["levels"][0] = {{"stream", refined["stream"]}, {"width", 512}, {"height", 512}};
+            }),
+            "JSON: " + std::string(texture_extension) + ": stream " + stream + " is a level and an image");
+  EXPECT_EQ(message([](Json& refined) {
+              const Json level = {{"stream", refined["stream"]}, {"width", 512}, {"height", 512}};
+              refined["levels"].insert(refined["levels"].begin(), level);
+            }),
+            "JSON: textures[0]: its levels are not smaller images of it, from coarse to fine");
+}
+
 TEST(VerifyPack, FindsEveryDamagedByte) {
   const Packed packed = pack(room());
   Random random(9, 0);

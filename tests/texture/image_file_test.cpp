@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 // jpeglib.h needs what cstdio declares.
@@ -172,6 +173,24 @@ TEST(Jpeg, RefusesShortFiles) {
   const auto file = write_jpeg(noise(40, 40, 3), 90);
   EXPECT_FALSE(read_jpeg(Bytes(file).first(file.size() / 2)));
   expect_total_on_prefixes(write_jpeg(noise(9, 9, 3), 50));
+}
+
+// Quality 90 keeps a constant colour within 3 of 255, as JPEG's; alpha is kept as it is.
+TEST(WebP, IsWrittenOfAnyNumberOfChannels) {
+  const std::array<uint8_t, 4> grey{77, 77, 77, 255}, clear{90, 90, 90, 40}, red{200, 50, 60, 255},
+      glass{30, 90, 200, 60};
+  const std::array cases{std::pair(constant(17, 9, {77}), grey), std::pair(constant(17, 9, {90, 40}), clear),
+                         std::pair(constant(17, 9, {200, 50, 60}), red),
+                         std::pair(constant(17, 9, {30, 90, 200, 60}), glass)};
+  for (const auto& [image, expected] : cases) {
+    const auto read = read_image_file(write_webp(image, 90));
+    ASSERT_TRUE(read) << read.error().message();
+    ASSERT_EQ(read->width, 17);
+    ASSERT_EQ(read->height, 9);
+    ASSERT_EQ(read->channels, image.channels % 2 == 0 ? 4 : 3);
+    for (size_t c = 0; c < static_cast<size_t>(read->channels); c++) EXPECT_NEAR(read->pixels[c], expected[c], 3);
+  }
+  EXPECT_TRUE(write_webp(constant(16384, 1, {7}), 90).empty());
 }
 
 TEST(WebP, ReadsColourWithAndWithoutAlpha) {

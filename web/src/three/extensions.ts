@@ -38,6 +38,8 @@ export interface ProgressiveTextureExtension {
   stream: number;
   width: number;
   height: number;
+  /** Smaller images of it, coarse to fine. */
+  levels?: ProgressiveTextureExtension[];
 }
 
 export interface LightGridDefinition {

@@ -18,12 +18,12 @@ export interface ProgressivePrimitive {
   bend?: (to: BufferGeometry) => void;
 }
 
-/** An image that a stream refines: the textures that show it, and the meshes whose materials have these. */
+/** An image that a stream refines, or a level of one: the textures that show it, and the meshes whose materials have these. */
 export interface ProgressiveImage {
   extension: ProgressiveTextureExtension;
   textures: Texture[];
   meshes: Mesh[];
-  /** The longer side of what the opening holds of it, in texels. */
+  /** The longer side of what comes before it, in texels: of the level that is coarser, or of what the opening holds. */
   previewSize: number;
 }
 
@@ -33,6 +33,7 @@ export interface Opening {
   extensions: PackExtensions;
   /** By stream, each with its regions in their order. */
   primitives: Map<number, ProgressivePrimitive[]>;
+  /** Levels behind the whole image, with the same arrays. */
   images: Map<number, ProgressiveImage>;
   /** The meshes that show a primitive of a glTF node's own mesh. */
   meshesOf(node: number, primitive: number): Mesh[];
@@ -108,11 +109,16 @@ function progressiveImages(gltf: GLTF): Map<number, ProgressiveImage> {
       | undefined;
     if (extension === undefined) continue;
     const known = images.get(assetOf(extension));
-    const { width, height } = texture.image as ImageBitmap;
-    const image = known ?? { extension, textures: [], meshes: [], previewSize: Math.max(width, height) };
+    const image = known ?? { extension, textures: [], meshes: [], previewSize: 0 };
     image.textures.push(texture);
     image.meshes.push(...meshes);
     images.set(assetOf(extension), image);
+    if (known) continue;
+    let before: { width: number; height: number } = texture.image as ImageBitmap;
+    for (const level of [...(extension.levels ?? []), extension]) {
+      images.set(assetOf(level), Object.assign(level === extension ? image : { ...image, extension: level }, { previewSize: Math.max(before.width, before.height) }));
+      before = level;
+    }
   }
   return images;
 }

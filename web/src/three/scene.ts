@@ -163,10 +163,16 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
     for (const { texture } of grids) checkSize(texture, renderer);
     const images: Images = new Map();
     const most = options.maxImageMegapixels || USUAL_MEGAPIXELS;
+    const made = new Map<unknown, TextureRefinement>();
     for (const [asset, { extension, textures }] of opening.images) {
       const { width, height } = extension;
-      if (width * height <= most * 2 ** 20) images.set(asset, await TextureRefinement.create(textures, { width, height }, renderer));
-      else console.warn(`Lightwell: an image of ${width} x ${height} pixels stays coarse; maxImageMegapixels is ${most}`);
+      const known = made.get(textures);
+      if (known) images.set(asset, known);
+      else if (width * height <= most * 2 ** 20) {
+        const refinement = await TextureRefinement.create(textures, { width, height }, renderer);
+        made.set(textures, refinement);
+        images.set(asset, refinement);
+      } else console.warn(`Lightwell: an image of ${width} x ${height} pixels stays coarse; maxImageMegapixels is ${most}`);
     }
     const surroundings = opening.extensions.LIGHTWELL_environment;
     const environment =
@@ -411,7 +417,7 @@ export class LightwellScene extends Group<LightwellSceneEventMap> {
   *#refinements(): Generator<Refinement> {
     yield* this.#lights.values();
     yield* this.#meshes.values();
-    yield* this.#images.values();
+    yield* new Set(this.#images.values());
   }
 
   /** Bytes that nothing in the scene shows count as consumed: otherwise the sender would wait for them. */

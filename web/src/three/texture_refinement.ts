@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Box2, Texture, Vector2, type WebGLRenderer } from 'three';
+import { Box2, LinearFilter, NearestMipmapNearestFilter, Texture, Vector2, type WebGLRenderer } from 'three';
 import type { TextureEvent } from '../core/protocol.js';
 import { messageOf } from './pack_error.js';
 import type { Refinement } from './refinement.js';
@@ -15,8 +15,8 @@ export interface ImageSize {
 const BITMAP_OPTIONS: ImageBitmapOptions = { premultiplyAlpha: 'none', colorSpaceConversion: 'none' };
 
 /**
- * A texture that has its final size from the start, first filled with its enlarged preview. When the image has come, it
- * replaces the preview strip by strip; the mip levels follow with the last one.
+ * A texture that has its final size from the start, first filled with its enlarged preview. What comes goes strip by strip to the mip level of its
+ * size; with the last strip the coarser levels are made of that one, and it is the finest that is shown. Last comes the image itself, level 0.
  */
 export class TextureRefinement implements Refinement {
   readonly #textures: Texture[];
@@ -24,9 +24,11 @@ export class TextureRefinement implements Refinement {
   readonly #renderer: WebGLRenderer;
   readonly #width: number;
   readonly #height: number;
-  readonly #sweep: RowSweep;
+  #sweep: RowSweep | null = null;
   #image: ImageBitmap | null = null;
-  #decoding = false;
+  /** Of the image. */
+  #level = Infinity;
+  #decoding = 0;
   #bytes = 0;
   #consumed = 0;
   #disposed = false;
@@ -37,7 +39,6 @@ export class TextureRefinement implements Refinement {
     this.#width = width;
     this.#height = height;
     this.#renderer = renderer;
-    this.#sweep = new RowSweep(4 * width * textures.length, height);
   }
 
   /** Enlarges the preview of the textures, which share one image, and gives it to the GPU. `stated` is the size of the file. */
@@ -55,38 +56,64 @@ export class TextureRefinement implements Refinement {
   }
 
   get pending(): boolean {
-    return this.#decoding || (this.#image !== null && !this.#sweep.done);
+    return this.#decoding > 0 || this.#sweep?.done === false;
   }
 
-  /** Decodes the image. When the browser cannot read it, the preview stays and the promise is rejected. */
+  /** Decodes an image. When the browser cannot read it, what was there stays and the promise is rejected. */
   async receive(event: TextureEvent): Promise<void> {
-    this.#decoding = true;
+    this.#decoding++;
     try {
       const { width, height } = this.#stated;
-      if (event.width !== width || event.height !== height) throw new Error('it has another size than the pack states');
-      const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType }));
-      if (this.#disposed) return image.close();
-      this.#image = image;
-      this.#bytes = event.file.byteLength;
+      const level = Math.round(Math.log2(Math.max(width, height) / Math.max(event.width, event.height)));
+      if (!(level > 0) && (event.width !== width || event.height !== height)) throw new Error('it has another size than the pack states');
+      const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType }), level);
+      if (this.#disposed || level > this.#level) {
+        this.#consumed += event.file.byteLength;
+        return image.close();
+      }
+      this.#take(image, level, event.file.byteLength);
     } catch (error) {
       this.#consumed += event.file.byteLength;
       throw new Error(`the image of asset ${event.asset} (${event.mimeType}) cannot be read: ${messageOf(error)}`);
     } finally {
-      this.#decoding = false;
+      this.#decoding--;
     }
   }
 
+  /** In the place of a coarser one, which is kept until then, since the GPU may lose it. */
+  #take(image: ImageBitmap, level: number, bytes: number): void {
+    this.#image?.close();
+    this.#consumed += this.#bytes;
+    this.#image = image;
+    this.#level = level;
+    this.#bytes = bytes;
+    this.#sweep = new RowSweep(4 * image.width * this.#textures.length, image.height);
+  }
+
   advance(budget: UploadBudget): boolean {
-    const strip = this.#image === null ? null : this.#sweep.take(budget);
+    const strip = this.#sweep?.take(budget) ?? null;
     if (strip === null) return false;
-    const area = new Box2(new Vector2(0, strip.row), new Vector2(this.#width, strip.row + strip.rows));
+    const { done } = this.#sweep!;
+    const area = new Box2(new Vector2(0, strip.row), new Vector2(this.#image!.width, strip.row + strip.rows));
     for (const texture of this.#textures) {
-      texture.mipmapsAutoUpdate = this.#sweep.done;
-      this.#renderer.copyTextureToTexture(new Texture(this.#image), texture, area, area.min);
+      // One without mip levels waits for the image itself.
+      if (this.#level > 0 && !hasLevels(texture)) continue;
+      texture.mipmapsAutoUpdate = false;
+      this.#renderer.copyTextureToTexture(new Texture(this.#image), texture, area, area.min, 0, this.#level);
       texture.mipmapsAutoUpdate = true;
+      if (done) this.#showFrom(texture);
     }
-    if (this.#sweep.done) this.#finish();
-    return this.#sweep.done;
+    if (done) this.#finish();
+    return done;
+  }
+
+  /** Makes the image's level the finest that is shown, and all coarser ones of it. */
+  #showFrom(texture: Texture): void {
+    const gl = this.#renderer.getContext();
+    const { __webglTexture } = this.#renderer.properties.get(texture) as { __webglTexture: WebGLTexture };
+    this.#renderer.state.bindTexture(gl.TEXTURE_2D, __webglTexture);
+    gl.texParameteri(gl.TEXTURE_2D, (gl as WebGL2RenderingContext).TEXTURE_BASE_LEVEL, this.#level);
+    if (hasLevels(texture)) gl.generateMipmap(gl.TEXTURE_2D);
   }
 
   takeConsumed(): number {
@@ -96,7 +123,7 @@ export class TextureRefinement implements Refinement {
   }
 
   restart(): void {
-    if (this.pending) this.#sweep.restart();
+    if (this.pending || this.#level > 0) this.#sweep?.restart();
   }
 
   dispose(): void {
@@ -105,15 +132,20 @@ export class TextureRefinement implements Refinement {
     for (const texture of this.#textures) texture.dispose();
   }
 
-  /** Keeps the image in memory, since the GPU may lose it. */
+  /** The textures keep the image itself, since the GPU may lose it. */
   #finish(): void {
+    this.#consumed += this.#bytes;
+    this.#bytes = 0;
+    if (this.#level > 0) return;
     (this.#textures[0]!.image as ImageBitmap).close();
     for (const texture of this.#textures) texture.image = this.#image;
-    this.#consumed += this.#bytes;
   }
 
-  #bitmap(source: ImageBitmapSource): Promise<ImageBitmap> {
-    const size = { resizeWidth: this.#width, resizeHeight: this.#height, resizeQuality: 'high' } as const;
-    return createImageBitmap(source, { ...BITMAP_OPTIONS, ...size });
+  #bitmap(source: ImageBitmapSource, level = 0): Promise<ImageBitmap> {
+    const [resizeWidth, resizeHeight] = [this.#width, this.#height].map((side) => Math.max(1, side >> level)) as [number, number];
+    return createImageBitmap(source, { ...BITMAP_OPTIONS, resizeWidth, resizeHeight, resizeQuality: 'high' });
   }
 }
+
+/** Whether its minification takes mip levels, which are there then. */
+const hasLevels = ({ generateMipmaps, minFilter }: Texture) => generateMipmaps && minFilter >= NearestMipmapNearestFilter && minFilter !== LinearFilter;
