@@ -2,7 +2,7 @@
 //
 // A full-screen pass into the picture that materials read (direct_light.glsl): the distance of what is seen, and six shares, two in a float as
 // whole numbers of 12 bits: the ratios of lamps' sums, and behind those what is the same without sums. Where the view before saw the same place, its share of a
-// lamp counts, too, the less the more samples there are (docs/light.md section 7). Comes behind direct_light.glsl and seen_surface.glsl.
+// lamp counts, too, the less the more samples there are (docs/light.md section 7). Comes behind seen_surface.glsl.
 
 uniform sampler2D sums[ 6 ];
 uniform sampler2D ready;        // three shares without sums
@@ -26,19 +26,21 @@ float bitsOf( float share ) {
 
 }
 
-// Shares of a place in the picture of the view before, between its pixels.
-struct KnownPlace {
-	ivec2 pixels[ 4 ];
-	float weights[ 4 ];  // together 1, or all 0 where that view did not see the place
+// Six shares, two and two.
+struct Shares {
+	vec3 even;
+	vec3 odd;
+	float found;  // 1, or 0 where there are none
 };
 
-KnownPlace getKnownPlace( vec3 position, vec3 normal ) {
+// Those that the view before knew of a place, between its pixels.
+Shares getKnownShares( vec3 position, vec3 normal ) {
 
-	KnownPlace place;
+	Shares shares = Shares( vec3( 0.0 ), vec3( 0.0 ), 0.0 );
 	vec2 size = texelFetch( known, ivec2( 0 ), 0 ).zw;
 	vec4 clip = knownProjection * vec4( position, 1.0 );
 	vec2 at = ( 0.5 + 0.5 * clip.xy / clip.w ) * size;
-	bool outside = clip.w <= 0.0 || any( lessThan( at, vec2( 0.0 ) ) ) || any( greaterThan( at, size ) );
+	if ( clip.w <= 0.0 || any( lessThan( at, vec2( 0.0 ) ) ) || any( greaterThan( at, size ) ) ) return shares;
 	vec2 first = floor( at - 0.5 ), f = at - 0.5 - first;
 	float sum = 0.0;
 	for ( int i = 0; i < 4; i ++ ) {
@@ -50,25 +52,17 @@ KnownPlace getKnownPlace( vec3 position, vec3 normal ) {
 		vec3 eye = positionIn( knownProjection, middle, 0.0 ), ray = positionIn( knownProjection, middle, 1.0 ) - eye;
 		float facing = dot( normal, ray );
 		float distance = dot( normal, position - eye ) / facing;
-		float off = abs( texelFetch( known, pixel + ivec2( 0, 1 ), 0 ).r - distance );
-		bool same = ! outside && facing < - FLATTEST * length( ray ) && off < SAME_PLACE * distance;
-		vec2 shares = mix( 1.0 - f, f, vec2( by ) );
-		place.pixels[ i ] = pixel;
-		place.weights[ i ] = same ? shares.x * shares.y : 0.0;
-		sum += place.weights[ i ];
+		vec4 texel = texelFetch( known, pixel + ivec2( firstShare / 6 * int( size.x ), 1 ), 0 );
+		if ( facing > - FLATTEST * length( ray ) || abs( texel.r - distance ) > SAME_PLACE * distance ) continue;
+		vec2 parts = mix( 1.0 - f, f, vec2( by ) );
+		float weight = parts.x * parts.y;
+		vec3 even = floor( texel.gba / 4096.0 );
+		shares.even += weight * even;
+		shares.odd += weight * ( texel.gba - 4096.0 * even );
+		sum += weight;
 
 	}
-	for ( int i = 0; i < 4; i ++ ) place.weights[ i ] = sum > 0.1 ? place.weights[ i ] / sum : 0.0;
-	return place;
-
-}
-
-// A share of the picture before, and by how much of 1 it counts there.
-vec2 getKnownShare( KnownPlace place, int share ) {
-
-	vec2 sum = vec2( 0.0 );
-	for ( int i = 0; i < 4; i ++ ) if ( place.weights[ i ] > 0.0 ) sum += place.weights[ i ] * vec2( getShareOfLamp( known, place.pixels[ i ], share ), 1.0 );
-	return sum;
+	return sum > 0.1 ? Shares( shares.even / ( 4095.0 * sum ), shares.odd / ( 4095.0 * sum ), 1.0 ) : Shares( vec3( 0.0 ), vec3( 0.0 ), 0.0 );
 
 }
 
@@ -81,21 +75,16 @@ void main() {
 	vec3 shares = texelFetch( ready, pixel, 0 ).rgb;
 	float most = 0.0;
 	for ( int i = 0; i < 6; i ++ ) most = max( most, knownWeights[ i ] );
-	KnownPlace place;
-	bool asksKnown = most > 0.0 && surface.b > 0.0;
-	if ( asksKnown ) place = getKnownPlace( ( toKnown * vec4( positionOf( vec2( pixel ) + 0.5, surface.b ), 1.0 ) ).xyz, mat3( toKnown ) * unpackNormal( surface.rg ) );
+	Shares before = Shares( vec3( 0.0 ), vec3( 0.0 ), 0.0 );
+	if ( most > 0.0 && surface.b > 0.0 )
+		before = getKnownShares( ( toKnown * vec4( positionOf( vec2( pixel ) + 0.5, surface.b ), 1.0 ) ).xyz, mat3( toKnown ) * unpackNormal( surface.rg ) );
 	vec3 two = vec3( 0.0 );
 	for ( int i = 0; i < 6; i ++ ) {
 
 		int k = i - firstReady;
 		if ( k < 0 && readyForSums ) k += 3;
 		float share = k >= 0 && k < 3 ? shares[ k ] : of[ i ].x > 0.0 ? of[ i ].y / of[ i ].x : 1.0;
-		if ( asksKnown && knownWeights[ i ] > 0.0 ) {
-
-			vec2 before = getKnownShare( place, firstShare + i );
-			share = mix( share, before.x, knownWeights[ i ] * before.y );
-
-		}
+		share = mix( share, i % 2 == 0 ? before.even[ i / 2 ] : before.odd[ i / 2 ], knownWeights[ i ] * before.found );
 		two[ i / 2 ] += bitsOf( share ) * ( i % 2 == 0 ? 4096.0 : 1.0 );
 
 	}

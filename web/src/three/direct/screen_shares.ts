@@ -61,7 +61,7 @@ export class ScreenShares {
     this.#spare = sum();
     const textures = Array.from({ length: SUMS }, () => null);
     const names = ['surfaces', 'projection', 'ready', 'firstReady', 'readyForSums', 'start', 'firstShare', 'known', 'toKnown', 'knownProjection'];
-    this.#shares = new FullScreen(this.#screen, [textForPasses(), seenSurface, sharesShader].join('\n'), {
+    this.#shares = new FullScreen(this.#screen, [seenSurface, sharesShader].join('\n'), {
       ...Object.fromEntries(names.map((name) => [name, { value: null }])),
       sums: { value: textures },
       knownWeights: { value: [] },
