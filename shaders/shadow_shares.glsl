@@ -62,7 +62,8 @@ Shares getKnownShares( vec3 position, vec3 normal ) {
 		sum += weight;
 
 	}
-	return sum > 0.1 ? Shares( shares.even / ( 4095.0 * sum ), shares.odd / ( 4095.0 * sum ), 1.0 ) : Shares( vec3( 0.0 ), vec3( 0.0 ), 0.0 );
+	float each = 4095.0 * max( sum, 0.1 );
+	return Shares( shares.even / each, shares.odd / each, sum > 0.1 ? 1.0 : 0.0 );
 
 }
 
