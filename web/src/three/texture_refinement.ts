@@ -65,7 +65,9 @@ export class TextureRefinement implements Refinement {
     try {
       const { width, height } = this.#stated;
       const level = Math.round(Math.log2(Math.max(width, height) / Math.max(event.width, event.height)));
-      if (!(level > 0) && (event.width !== width || event.height !== height)) throw new Error('it has another size than the pack states');
+      // Levels are rounded to whole texels.
+      const fits = (side: number, of: number) => Math.abs(side - of / 2 ** level) < (level > 0 ? 2 : 1);
+      if (!(level >= 0 && fits(event.width, width) && fits(event.height, height))) throw new Error('it has another size than the pack states');
       const image = await this.#bitmap(new Blob([event.file], { type: event.mimeType }), level);
       if (this.#disposed || level > this.#level) {
         this.#consumed += event.file.byteLength;
