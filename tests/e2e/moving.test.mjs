@@ -27,7 +27,7 @@ function errorOf(row, expected) {
 test('a camera that moves keeps the penumbra it has seen, and at rest needs nothing of it', async (t) => {
   const { page, errors } = await open(t);
   const places = [0.02, 0.04, 0.06];
-  const { first, without, rest, alone } = await page.evaluate(([lamp, to]) => movesOn(lamp, to, 0.4), [LAMP_BEHIND_EDGE, places]);
+  const { first, without, rest, alone, textures } = await page.evaluate(([lamp, to]) => movesOn(lamp, to, 0.4), [LAMP_BEHIND_EDGE, places]);
   const expected = expectedOf(first, places.at(-1), 0.4);
   const of = (row) => errorOf(row, expected);
   const steps = Math.max(...rest.map((value, i) => stepsBetween(value, expected[i])));
@@ -36,6 +36,7 @@ test('a camera that moves keeps the penumbra it has seen, and at rest needs noth
   assert.ok(of(without) > 4 * of(first), `who has seen nothing has ${of(without)}`);
   // The page says 1 at most, taken at some of the pixels: at others it may be a little more.
   assert.ok(steps <= 1.2, `at rest off by ${steps}`);
+  assert.equal(textures[1], textures[0], 'at rest nothing of it takes memory');
   assert.deepEqual(errors, []);
 });
 

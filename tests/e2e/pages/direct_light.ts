@@ -33,6 +33,9 @@ const bounds = new Box3(new Vector3(-2, -2, -2), new Vector3(2, 2, 2));
 /** Milliseconds of a frame, so that samples come as fast as they can. */
 export const ALL_TIME = 10_000;
 
+/** How many of them the GPU holds. */
+export const countTextures = () => renderer.info.memory.textures;
+
 export interface Lit {
   direct: DirectLight;
   scene: Scene;
@@ -167,7 +170,7 @@ export async function besideAnother(definition: LampDefinition): Promise<{ rows:
     other!.visible = visible;
     result.rows.push(rowOf(lit.scene, camera, 128));
     result.samples.push(lit.direct.samples);
-    result.textures.push(renderer.info.memory.textures);
+    result.textures.push(countTextures());
   }
   lit.direct.dispose();
   return result;

@@ -3,7 +3,7 @@
 // What a view that comes after another one shows of shadows before it has samples of its own.
 import { type Camera, PerspectiveCamera, Vector3 } from 'three';
 import type { LampDefinition } from '../../../web/src/three/extensions.js';
-import { light, type Lit, rowCamera, rowOf, settle, surface, wallUnderSky } from './direct_light.js';
+import { countTextures, light, type Lit, rowCamera, rowOf, settle, surface, wallUnderSky } from './direct_light.js';
 
 const WIDTH = 128;
 
@@ -23,16 +23,18 @@ const shot = ({ scene }: Lit, camera: Camera) => rowOf(scene, camera, WIDTH);
 
 /**
  * After the camera has rested where it saw 0.48 to both sides of 0, it goes on over places, with no time for samples between them: the row of the floor around
- * the last of them in its first picture, and at rest; and those two for who has seen nothing before.
+ * the last of them in its first picture, and at rest; and those two for who has seen nothing before. And how many textures there are at rest, before and after.
  */
-export async function movesOn(definition: LampDefinition, places: number[], half: number): Promise<Record<'first' | 'without' | 'rest' | 'alone', number[]>> {
+export async function movesOn(definition: LampDefinition, places: number[], half: number): Promise<Record<'first' | 'without' | 'rest' | 'alone' | 'textures', number[]>> {
   const lit = create(definition);
   await settle(lit, rowCamera(0.48), WIDTH, Infinity);
+  const textures = [countTextures()];
   const cameras = places.map((x) => eyeAt(x, half, 0.8));
   const last = cameras[cameras.length - 1]!;
   const first = cameras.map((camera) => shot(lit, camera)).at(-1)!;
   await settleOn(lit, last);
   const rest = shot(lit, last);
+  textures.push(countTextures());
   lit.direct.dispose();
   const other = create(definition);
   other.direct.setShadows('soft', 0);
@@ -40,7 +42,7 @@ export async function movesOn(definition: LampDefinition, places: number[], half
   await settle(other, last, WIDTH, Infinity);
   const alone = shot(other, last);
   other.direct.dispose();
-  return { first, without, rest, alone };
+  return { first, without, rest, alone, textures };
 }
 
 /** Lets all samples come, and begins nothing anew. */

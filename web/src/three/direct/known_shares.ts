@@ -6,7 +6,7 @@ import type { ScreenShares } from './screen_shares.js';
 
 /**
  * What a view that was left knew of lamps' shares: its picture, in which the present view finds again what both see (shaders/shadow_shares.glsl).
- * So a camera that moves keeps its shadows, whatever its meshes are (docs/decisions/050-shadows-known-from-the-view-before.md).
+ * So a camera that moves keeps its shadows, whatever its meshes are (docs/decisions/048-shadows-known-from-the-view-before.md).
  */
 export class KnownShares {
   readonly #picture: WebGLRenderTarget;
