@@ -240,6 +240,7 @@ bench_growth() {
 bench_direct() {
   command -v chromium >/dev/null || { missing chromium; return; }
   show node bench/direct_light.mjs "$(built_in box-small)"
+  show node bench/direct_orbit.mjs "$(built_in box-small)"
   show node bench/gloss_scene.mjs "$out/gloss.gltf"
   show "$lightwell" bake "$out/gloss.gltf" -o "$out/gloss.lw.glb" --photons 20000 --grid 4 --quiet
   show node bench/direct_light.mjs "$out/gloss.lw.glb" 1024
