@@ -33,11 +33,16 @@ struct Receiver {
 	vec2 place;     // in the face, in texels
 };
 
-// By how much a plane is deeper at a texel's corner than in its middle, in halves of its width. Where it is steeper than what is said here it has little
-// light, and what stands on it is more to be minded.
-float getSlope( vec3 n, float facing ) {
+// By how much a plane is nearer to the lamp at a texel's corner than in its middle, as a share of its distance, of a sun's half width. What stands on a plane
+// casts no shadow on what is nearer to it than that: of steep ones, which have little light, it is no more than what is said here.
+float getRise( vec3 n, float facing ) {
 
-	return min( ( abs( n.x ) + abs( n.y ) ) / abs( facing ), 1.5 );
+	#ifdef SUN
+		const float MOST = 0.00125;
+	#else
+		const float MOST = 0.003;
+	#endif
+	return min( ( abs( n.x ) + abs( n.y ) ) / ( abs( facing ) * size ), MOST );
 
 }
 
@@ -55,7 +60,7 @@ float getSlope( vec3 n, float facing ) {
 	vec2 depthsOf( Receiver receiver, vec2 middle ) {
 
 		vec3 n = receiver.normal;
-		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 ) - getSlope( n, n.z ) / size;
+		float rise = - dot( n.xy, middle - receiver.at.xy ) / min( n.z, - 0.02 ) - getRise( n, n.z );
 		return 0.5 + 0.5 * ( receiver.at.z + clamp( rise, - 0.05, 0.05 ) ) * range.x / range.y - vec2( OWN_OF_SUN, CLOSE_OF_SUN );
 
 	}
@@ -81,7 +86,7 @@ float getSlope( vec3 n, float facing ) {
 		float own = abs( receiver.at.z );
 		vec3 n = receiver.normal;
 		float facing = dot( n, vec3( middle, receiver.side ) );
-		float plane = dot( n, receiver.at ) / ( facing * ( 1.0 + getSlope( n, facing ) / size ) );
+		float plane = dot( n, receiver.at ) / ( facing * ( 1.0 + getRise( n, facing ) ) );
 		plane = plane > 0.0 ? clamp( plane, 0.9 * own, 1.1 * own ) : own;
 		return range.y / ( range.y - range.x ) * ( 1.0 - range.x / ( plane * ( 1.0 - vec2( OWN, CLOSE ) ) ) );
 
