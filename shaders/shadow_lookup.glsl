@@ -13,6 +13,7 @@ uniform vec3 normal;            // of the lamp's surface there; 0 where it shine
 uniform bool bothSides;
 uniform float size;             // a face's side, in texels
 uniform vec2 within;            // of the pixel: the place that is looked up, from its middle
+uniform float mostRise;         // of steep planes: what stands on one casts no shadow on what is nearer to it than that
 uniform vec2 range;             // near and far end of the map; of a sun its half width and half depth
 
 out vec4 result;
@@ -33,16 +34,10 @@ struct Receiver {
 	vec2 place;     // in the face, in texels
 };
 
-// By how much a plane is nearer to the lamp at a texel's corner than in its middle, as a share of its distance, of a sun's half width. What stands on a plane
-// casts no shadow on what is nearer to it than that: of steep ones, which have little light, it is no more than what is said here.
+// By how much a plane is nearer to the lamp at a texel's corner than in its middle, as a share of its distance, of a sun's half width.
 float getRise( vec3 n, float facing ) {
 
-	#ifdef SUN
-		const float MOST = 0.00125;
-	#else
-		const float MOST = 0.003;
-	#endif
-	return min( ( abs( n.x ) + abs( n.y ) ) / ( abs( facing ) * size ), MOST );
+	return min( ( abs( n.x ) + abs( n.y ) ) / ( abs( facing ) * size ), mostRise );
 
 }
 

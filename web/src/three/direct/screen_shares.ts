@@ -19,6 +19,8 @@ const BYTES_OF_A_SUM = 8;
 const READY = 3;
 /** From sample to sample another place of the pixel is looked up, all over it (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018). */
 const WITHIN_PIXEL = [0.7548776662466927, 0.5698402909980532];
+/** Of steep planes (shaders/shadow_lookup.glsl): of a sky, many of whose directions are all but along any plane, less. */
+const [MOST_RISE, MOST_RISE_OF_SKY] = [0.01, 0.00125];
 /** Controls find a camera that rests anew for every picture, each time with other roundings. */
 const ROUNDING = 1e-9;
 
@@ -157,6 +159,7 @@ export class ScreenShares {
       bothSides: point.bothSides,
       size: map.size,
       range: new three.Vector2(...range),
+      mostRise: point.color ? MOST_RISE_OF_SKY : MOST_RISE,
     });
     [this.#sums[share], this.#spare] = [this.#spare, this.#sums[share]!];
   }
@@ -213,7 +216,7 @@ export class ScreenShares {
 
   #lookup(sun: boolean, soft: boolean): FullScreen {
     const key = `${sun}${soft}`;
-    const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'within', 'range'];
+    const names = ['surfaces', 'sums', 'depths', 'first', 'strength', 'projection', 'axes', 'point', 'normal', 'bothSides', 'size', 'within', 'range', 'mostRise'];
     const uniforms = Object.fromEntries(names.map((name) => [name, { value: null }]));
     const defines = { ...(sun && { SUN: '' }), ...(soft && { SOFT: '' }) };
     const pass = this.#lookups.get(key) ?? new FullScreen(this.#screen, seenSurface + lookupShader, uniforms, defines);
